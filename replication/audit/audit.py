@@ -20,7 +20,7 @@ from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.findings import Evidence, Known
+from replication.audit.findings import Evidence, Results
 from replication.audit.record import Verdict
 from replication.audit.verdict import Judgement, Reading
 from replication.models import sheet
@@ -32,7 +32,7 @@ def audit(ledger: Ledger | None = None) -> r.Record:
     return Audit(ledger or ledgers.load()).record()
 
 
-class Audit(Known):
+class Audit(Results):
     """The audit of one ledger."""
 
     def record(self) -> r.Record:

@@ -1,7 +1,7 @@
-"""What the record holds besides verdicts: all approaches to X/R, sensitivity, scatter, curves.
+"""The contents of the record besides verdicts: approaches to X/R, sensitivity, scatter, curves.
 
-In a report with a misprint some inputs have no meaning, such as a velocity of zero: what cannot be
-computed with them is None, or left out of its list.
+In a report with a misprint an input may make no sense, such as a velocity of zero. What cannot be
+computed then is None, or left out of its list.
 """
 
 from collections.abc import Callable, Iterable
@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 from reference.ledger import Convention
 from replication.audit import record as r
-from replication.audit.findings import DENSITY, DERIVED, Known, case, exact_ratio
+from replication.audit.findings import DENSITY, DERIVED, Results, case, exact_ratio
 from replication.models import depth, motion, sheet
 from replication.models.crater import crater_depth, depth_from_volume_ratio
 from replication.models.impact import InputError
@@ -26,14 +26,14 @@ BETAS = (3, 5)
 _Part = TypeVar("_Part")
 
 
-def _value(compute: Callable[..., float], *row: Any) -> float | None:
-    """What is computed from a row of arguments, if it has a meaning."""
-    values = _parts(compute, [row])
+def _value(compute: Callable[..., float], *arguments: Any) -> float | None:
+    """Return a computed number, or None if it has no value or no finite one."""
+    values = _parts(compute, [arguments])
     return values[0] if values and isfinite(values[0]) else None
 
 
 def _parts(compute: Callable[..., _Part], rows: Iterable[tuple[Any, ...]]) -> list[_Part]:
-    """What is computed from each row of arguments, as far as it has a meaning."""
+    """Return what is computed from each row of arguments; leave out what cannot be computed."""
     parts = []
     for row in rows:
         with suppress(ArithmeticError, InputError):
@@ -41,26 +41,26 @@ def _parts(compute: Callable[..., _Part], rows: Iterable[tuple[Any, ...]]) -> li
     return parts
 
 
-def approaches(known: Known) -> list[r.Approach]:
-    """Every approach to X/R [1] of the report, and one that leaves out the target's inertia."""
-    claims = known.ledger.claims
+def approaches(results: Results) -> list[r.Approach]:
+    """Return X/R [1] by every approach of the report, and by one without the target's inertia."""
+    claims = results.ledger.claims
 
     def computed(claim: str, reading: str = "") -> float:
-        return known.reading(claim, reading).computed
+        return results.reading(claim, reading).computed
 
     def in_sheet(beta: int) -> float:
-        return sheet.run(case(known, beta)).normalized_depth
+        return sheet.run(case(results, beta)).normalized_depth
 
     def exact(beta: int) -> float:
-        return exact_ratio(case(known, beta))
+        return exact_ratio(case(results, beta))
 
     def cratered(beta: int) -> float:
         """X/R at the constant pressure R_t: the work R_t CV is the energy rho_p PV V^2 / 2."""
-        impact = case(known, beta)
+        impact = case(results, beta)
         energy = impact.particle_density * impact.velocity**2 / 2
         return crater_depth(energy / impact.target_resistance)
 
-    line = partial(depth_from_volume_ratio, known["volume-ratio-line"])
+    line = partial(depth_from_volume_ratio, results["volume-ratio-line"])
     drawn, taken = (claims[name].text for name in ("volume-ratio-line", "volume-ratio"))
     forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", DERIVED))
     rows: list[tuple[str, str, Callable[[], float] | None, str]] = [
@@ -85,59 +85,60 @@ def approaches(known: Known) -> list[r.Approach]:
     ]  # fmt: skip
 
 
-def figures(known: Known) -> list[r.Figure]:
-    """What the remark can be judged by: the final depths at both steps, in both schemes."""
+def figures(results: Results) -> list[r.Figure]:
+    """Return the figures to judge the remark by: final depths at both steps, in both schemes."""
 
-    def deep(beta: int, scheme: str, step: str) -> float:
-        return sheet.run(case(known, beta, step=known[step]), scheme).final_depth
-
-    def micrometers(beta: int, scheme: str, step: str) -> float:
-        return deep(beta, scheme, step) * 1e6
-
-    def change(beta: int, scheme: str) -> float:
-        return 100 * (deep(beta, scheme, "coarse-step") / deep(beta, scheme, "a-step") - 1)
+    def final_depth(beta: int, scheme: str, step: str) -> float:
+        return sheet.run(case(results, beta, step=results[step]), scheme).final_depth
 
     figures = []
     for beta, (scheme, (_, drag_at)) in product(BETAS, sheet.SCHEMES.items()):
-        what = f"beta = {beta}, drag at the {drag_at} velocity"
+        case_words = f"beta = {beta}, drag at the {drag_at} velocity"
+        depths = []
         for step in ("a-step", "coarse-step"):
-            means = f"final depth at {quantity(known.ledger.claims[step].shown, 'ns')}, {what}"
-            value = _value(micrometers, beta, scheme, step)
-            figures.append(r.Figure(means=means, value=value, unit="um"))
-        value = _value(change, beta, scheme)
-        figures.append(r.Figure(means=f"change, {what}", value=value, unit="percent"))
+            step_words = quantity(results.ledger.claims[step].shown, "ns")
+            depths.append(_value(final_depth, beta, scheme, step))
+            micrometers = None if depths[-1] is None else depths[-1] * 1e6
+            means = f"final depth at {step_words}, {case_words}"
+            figures.append(r.Figure(means=means, value=micrometers, unit="um"))
+        fine, coarse = depths
+        change = 100 * (coarse / fine - 1) if fine and coarse is not None else None
+        figures.append(r.Figure(means=f"change, {case_words}", value=change, unit="percent"))
     return figures
 
 
-# What the depth depends on
+# How the depth depends on its inputs
 
 
-def sensitivity(known: Known) -> list[r.Sensitivity]:
-    """How the exact depth of the report's cases depends on each input.
+def sensitivity(results: Results) -> list[r.Sensitivity]:
+    """Return how the exact final depth of both cases of the report depends on each input.
 
-    By derivatives, and over the uncertainty that the report or its evidence gives of each input.
+    The dependence is given by elasticities, and by the depths at both ends of the uncertainty that
+    the report or its evidence states for an input.
     """
-    return _parts(partial(_sensitivity, known), product(BETAS))
+    return _parts(partial(_sensitivity, results), product(BETAS))
 
 
-def _sensitivity(known: Known, beta: int) -> r.Sensitivity:
-    impact = case(known, beta)
+def _sensitivity(results: Results, beta: int) -> r.Sensitivity:
+    impact = case(results, beta)
     velocity, radius, *materials = impact.motion.values()
     by_input = depth.elasticities(velocity, *materials)
-    # The resistance is the product of beta and the flow stress.
+    # The resistance is the product of beta and the flow stress, so both have its elasticity.
     by_input |= dict.fromkeys(("beta", "flow_stress"), by_input.pop("resistance"))
-    spread, size = known["velocity-deviation"], known["diameter-deviation"] / 2
-    printed = known.ledger.claims["a1-density"].target().ends
-    chosen = (known.ledger.claims[name] for name in ("a1-initial-velocity", "a-step"))
+    spread, size = results["velocity-deviation"], results["diameter-deviation"] / 2
+    printed = results.ledger.claims["a1-density"].target().ends
+    chosen = (results.ledger.claims[name] for name in ("a1-initial-velocity", "a-step"))
     exact = ", ".join(with_unit(claim.shown, claim.unit) for claim in chosen)
-    possible = known.judge.inference(DENSITY).admitted(Convention()).ends
+    betas = results["beta-range-least"], results["beta-range-greatest"]
+    strengths = results["strength-clear"], results["strength-feathery"]
+    possible = results.judge.inference(DENSITY).admitted(Convention()).ends
     ranges = (
         ("velocity", velocity - spread, velocity + spread, "mean deviation in the stream"),
         ("radius", radius - size, radius + size, "standard deviation of the powder"),
         ("particle_density", *printed, "rounding of the print"),
         ("target_density", *possible, f"bounds by Table A-1 with the sphere's mass at {exact}"),
-        ("beta", known["beta-range-least"], known["beta-range-greatest"], "the report's range"),
-        ("flow_stress", known["strength-clear"], known["strength-feathery"], "two grain strengths"),
+        ("beta", *betas, "the report's range"),
+        ("flow_stress", *strengths, "two grain strengths"),
     )
 
     def effect(name: str, low: float, high: float, why: str) -> r.Effect:
@@ -155,27 +156,27 @@ def _sensitivity(known: Known, beta: int) -> r.Sensitivity:
     )
 
 
-# What scatter does
+# The scatter of the particle stream
 
 SHARES = 0.05, 0.5, 0.95
-"""Shares of the particles of the stream, at which velocity and X/R are given."""
+"""The shares of the particles whose quantiles of velocity and X/R are given."""
 
 
-def scatter(known: Known) -> list[r.Scatter]:
-    """Velocity and exact X/R (beta = 5) over the particles of the stream, by three laws.
+def scatter(results: Results) -> list[r.Scatter]:
+    """Return the quantiles of velocity and exact X/R (beta = 5) over the stream, by three laws.
 
-    By Eq. 1, and by drag on a sphere, a particle's velocity follows from its size, which is
-    normally distributed; by the third law the velocity has the deviation that the report states.
-    "Mean deviation" is taken literally, as the mean absolute deviation.
+    By two laws, Eq. 1 and the drag on a sphere, the velocity is a power of the particle's diameter,
+    which is normally distributed. By the third the velocity itself is, with the "mean deviation"
+    that the report states, taken literally as the mean absolute deviation.
     """
-    size, deviation = known["mean-diameter"], known["diameter-deviation"]
-    mean = NormalDist().pdf(0) * 2  # mean absolute deviation over standard deviation
+    size, deviation = results["mean-diameter"], results["diameter-deviation"]
+    mean = NormalDist().pdf(0) * 2  # mean absolute over standard deviation
     z = NormalDist().inv_cdf
 
     def law(name: str, power: float | None) -> r.Scatter:
-        impact = case(known, 5)
+        impact = case(results, 5)
         if power is None:
-            spread = known["velocity-deviation"] / mean
+            spread = results["velocity-deviation"] / mean
             velocities = [impact.velocity + spread * z(share) for share in SHARES]
         else:
             spread = power * (deviation / size) * impact.velocity
@@ -198,11 +199,11 @@ def scatter(known: Known) -> list[r.Scatter]:
 # The sheet and the exact motion
 
 
-def curves(known: Known) -> list[r.Curve]:
-    """Depth against time, as in Figure 3: the sheet's rows, and the exact motion to rest."""
+def curves(results: Results) -> list[r.Curve]:
+    """Return depth against time, as in Figure 3: the sheet's rows, and the exact motion to rest."""
 
     def curve(beta: int) -> r.Curve:
-        impact = case(known, beta)
+        impact = case(results, beta)
         rows = sheet.run(impact).rows
         stop = motion.stop_time(**impact.motion)
         times = [stop * k / 100 for k in range(101)]
@@ -211,18 +212,18 @@ def curves(known: Known) -> list[r.Curve]:
         return r.Curve(
             beta=float(beta), sheet_time=[row.time for row in rows],
             sheet_depth=[row.depth for row in rows], exact_time=times, exact_depth=depths,
-            printed=known.ledger.claims[f"depth-beta-{beta}"].shown,
+            printed=results.ledger.claims[f"depth-beta-{beta}"].shown,
         )  # fmt: skip
 
     return _parts(curve, product(BETAS))
 
 
-def velocity_curve(known: Known) -> r.VelocityCurve:
-    """X/R against impact velocity, as in Figure 5: the sheet's and the exact one, for beta = 5."""
-    low, high = known["figure-5-velocity-least"], known["figure-5-velocity-greatest"]
+def velocity_curve(results: Results) -> r.VelocityCurve:
+    """Return X/R against impact velocity, as in Figure 5: of the sheet and exact, for beta = 5."""
+    low, high = results["figure-5-velocity-least"], results["figure-5-velocity-greatest"]
 
     def point(k: int) -> tuple[float, float, float]:
-        impact = case(known, 5, velocity=low + (high - low) * k / 20)
+        impact = case(results, 5, velocity=low + (high - low) * k / 20)
         return impact.velocity, sheet.run(impact).normalized_depth, exact_ratio(impact)
 
     points = _parts(point, product(range(21)))
@@ -230,11 +231,11 @@ def velocity_curve(known: Known) -> r.VelocityCurve:
     return r.VelocityCurve(velocity=velocity, sheet=in_sheet, exact=exact)
 
 
-def ladders(known: Known) -> list[r.Level]:
-    """The sheet's error against its time step, in both schemes, each step half of the last."""
+def ladders(results: Results) -> list[r.Level]:
+    """Return the sheet's error against its time step, halved repeatedly, in both schemes."""
 
     def level(beta: int, scheme: str, k: int) -> r.Level:
-        impact = case(known, beta, step=known["a-step"] * 2.0**k)
+        impact = case(results, beta, step=results["a-step"] * 2.0**k)
         run, exact = sheet.run(impact, scheme), depth.final_depth(**impact.motion)
         return r.Level(
             beta=float(beta), scheme=scheme, step=impact.step, steps=run.steps,

@@ -1,7 +1,7 @@
 """The findings: the evidence of each, computed anew from the ledger, the verdicts and the models.
 
-How each piece is computed is said in `reference/report/findings.toml`, by formulas, runs of the
-sheet and verdicts; only what has no such words is a function here.
+`reference/report/findings.toml` says how each piece of evidence is computed: by formulas, runs of
+the sheet, and verdicts. Only what these cannot express is a function in this module.
 """
 
 import math
@@ -12,7 +12,6 @@ from functools import cache, partial
 from statistics import NormalDist, fmean
 from typing import Any
 
-from msgspec import to_builtins
 from msgspec.structs import replace
 
 from reference import findings as asserted
@@ -32,11 +31,14 @@ from replication.models import depth, estimates, sheet
 from replication.models.impact import Impact
 
 Value = Fraction | float | bool
-"""Of a piece of evidence: a number in SI units, or whether something was proven."""
+"""The value of a piece of evidence: a number in SI units, or the outcome of a proof."""
 
 DENSITY = INFERRED + "target-density"
 DERIVED = "derived from Eqs. 14 and 15"
-"""How Eq. 16 is read otherwise than printed."""
+"""The name of the reading of Eq. 16 that does not take it as printed."""
+
+_READINGS = {"computed": "", "derived": DERIVED}
+"""The readings of a claim, by what stands for them after its id in findings.toml."""
 
 _CONVENTIONS = {
     "exact": Convention(header_exact=True),
@@ -46,14 +48,14 @@ _CONVENTIONS = {
 """How inputs are taken: header and choices exact, only the header rounded, or both rounded."""
 
 
-class Known:
-    """What the evidence is computed from: a ledger and the verdicts on it, each computed once."""
+class Results:
+    """A ledger and what is derived from it, such as verdicts; each result is computed once."""
 
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger = ledger
         self.judge = Judge(ledger, every_convention=every_convention)
         self.explainer = Explainer(self.judge)
-        # Cached here, not where they are defined, so that the results go when this object goes.
+        # Cached by this object and not by the functions, so that the results are freed with it.
         self.equation = cache(partial(assess_equation, ledger))
         self.assessment = cache(self._assess)
         self.shown = cache(self.explainer.shown)
@@ -81,12 +83,12 @@ class Known:
         return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
 
     def admission(self, source: Source) -> Admission:
-        """What the evidence of an inferred input says of a public source for it."""
+        """Return whether the evidence for an inferred input admits a public source's value."""
         (name,) = source.claims
         return self.judge.inference(name).admits(source.value, source.interval)
 
     def _sources(self, name: str) -> list[r.SourceRecord]:
-        """The public sources for a claim or an inferred input, and whether each agrees with it."""
+        """Return the public sources for a claim or an inferred input, each compared with it."""
         records = []
         for source in self.ledger.sources_of(name):
             if name.startswith(INFERRED):
@@ -99,51 +101,51 @@ class Known:
         return records
 
     def exact(self, name: str) -> Fraction:
-        """A claim as printed, an inferred input as assumed, or a source's number, in SI."""
+        """Return a claim's printed, an inferred input's assumed, or a source's value, in SI."""
         sources = self.ledger.sources
         return sources[name].value if name in sources else self.judge.value(name)
 
     def __getitem__(self, name: str) -> float:
-        """The same as a double."""
+        """Return the value that `exact` gives, as a double."""
         return float(self.exact(name))
 
     def reading(self, claim: str, name: str = "") -> Reading:
-        """One reading of a claim. Raises ArithmeticError where it has no value."""
+        """Return one reading of a claim. Raises ArithmeticError if it has no value."""
         for reading in self.assessment(self.ledger.claims[claim]).readings:
             if reading.name == name:
                 return reading
         raise ArithmeticError(f"{claim} has no value")
 
 
-def case(known: Known, beta: int, /, **changed: float) -> Impact:
-    """One of the report's two cases, with some inputs changed (SI)."""
-    inputs = {name: known[claim] for name, claim in claims_of_case(beta).items()}
+def case(results: Results, beta: int, /, **changed: float) -> Impact:
+    """Return the report's case with this beta, some of its inputs changed (SI)."""
+    inputs = {name: results[claim] for name, claim in claims_of_case(beta).items()}
     if "resistance" in changed:
         del inputs["beta"], inputs["flow_stress"]
     return Impact(**{**inputs, **changed})
 
 
 def exact_ratio(impact: Impact) -> float:
-    """The model's exact X/R [1]."""
+    """Return the exact final X/R [1] of the model (Eqs. 12-13)."""
     return depth.final_depth(**impact.motion) / impact.radius
 
 
 class Evidence:
-    """The evidence of one finding, each piece computed when it is asked for."""
+    """The evidence of one finding; each piece is computed once, when it is asked for."""
 
-    def __init__(self, known: Known, finding: asserted.Finding) -> None:
-        self.known, self.finding = known, finding
+    def __init__(self, results: Results, finding: asserted.Finding) -> None:
+        self.results, self.finding = results, finding
         pieces = finding.evidence.items()
         calculated = {name: p.formula for name, p in pieces if p.formula and not p.over}
         self.formulas = {**finding.where, **calculated}
         self.value = cache(self._value)
 
     def __getitem__(self, name: str) -> float:
-        """A value by its name in a formula, as a double."""
+        """Return the value of a name in a formula, as a double."""
         return float(self.value(name))
 
     def _value(self, name: str) -> Value:
-        """The value of a piece of evidence, found as its keys say, or of a name in a formula."""
+        """Return the value of a piece of evidence, computed as its keys say, or of another name."""
         piece = self.finding.evidence.get(name)
         if name in self.formulas:
             value: Fraction | float = self.calculated(self.formulas[name])
@@ -154,81 +156,82 @@ class Evidence:
             return self._named(*name.split("."))
         if piece.over:
             box = {
-                entry: self.known.judge.rounded(entry, _CONVENTIONS[name]).ends
-                for name, entries in piece.over.items()
+                entry: self.results.judge.rounded(entry, _CONVENTIONS[convention]).ends
+                for convention, entries in piece.over.items()
                 for entry in entries
             }
             return enclose(partial(self.calculated, piece.formula), box).ends[0]
         if piece.exact:
             changed = {key: float(self.calculated(x)) for key, x in piece.exact.items()}
-            impact = case(self.known, 5, **changed)
-            deep = depth.final_depth(**impact.motion)
-            return deep if same_dimension(piece.unit, "m") else deep / impact.radius
+            impact = case(self.results, 5, **changed)
+            is_length = same_dimension(piece.unit, "m")
+            return depth.final_depth(**impact.motion) if is_length else exact_ratio(impact)
         if piece.run:
             return self._run(**piece.run)
         if piece.verdicts:
             return all(
-                set(self._verdicts(pattern, to_builtins(piece.under))) == {stated}
-                for pattern, stated in piece.verdicts.items()
+                set(self._verdicts(pattern, piece.under)) == {verdict}
+                for pattern, verdict in piece.verdicts.items()
             )
         if piece.words:
-            return Fraction(" ".join(self.known.ledger.text.split()).count(piece.words))
+            return Fraction(" ".join(self.results.ledger.text.split()).count(piece.words))
         return _BESIDES[f"{self.finding.id}: {name}"](self)
 
     def _named(self, entry: str, *parts: str) -> Value:
-        """The value of an entry or a source, or what the parts of its name say of it, SI."""
-        known, ledger = self.known, self.known.ledger
+        """Return the value (SI) of an entry or a source, or what the parts of a name ask of it."""
+        results, ledger = self.results, self.results.ledger
         match parts:
             case ():
-                return known.exact(entry)
-            case (*how, "least" | "greatest" as end):
-                return self._range(entry, *how).ends[end == "greatest"]
+                return results.exact(entry)
+            case (*settings, "least" | "greatest" as end):
+                return self._range(entry, *settings).ends[end == "greatest"]
             case ("computed" | "derived" as part,):
-                reading = known.reading(entry, DERIVED if part == "derived" else "")
-                return reading.computed * float(ledger.claims[entry].si)
+                computed = results.reading(entry, _READINGS[part]).computed
+                return computed * float(ledger.claims[entry].si)
             case ("by", needed):  # the middle of the values with which the derived form gives it
-                solutions = known.explainer.solutions(ledger.claims[entry], DERIVED, needed)
+                solutions = results.explainer.solutions(ledger.claims[entry], DERIVED, needed)
                 return float(sum(solutions.inner[0])) / 2
             case ("digit",):
                 return ledger.claims[entry].number.quantum * ledger.claims[entry].si
             case ("slips",):
-                slips = known.explainer.slips(ledger.claims[entry])
+                slips = results.explainer.slips(ledger.claims[entry])
                 return Fraction(sum(bool(slip.fits) for slip in slips))
             case ("factor",):
-                factor = known.equation(entry).factor
+                factor = results.equation(entry).factor
                 return Fraction(0) if factor is None else 1 / factor
             case ("needed",):
-                constants = known.equation(ledger.claims[entry].within).constants
+                constants = results.equation(ledger.claims[entry].within).constants
                 (value,) = constants[entry].needed
                 return Fraction(value)
-            case (*how, "odd"):
-                return Fraction(len(self._inference(entry, *how).odd))
+            case (*settings, "odd"):
+                return Fraction(len(self._inference(entry, *settings).odd))
         raise KeyError(".".join((entry, *parts)))
 
-    def _range(self, entry: str, *how: str) -> Interval:
-        """What prints like a claim, or what the evidence of an inferred input admits, SI.
+    def _range(self, entry: str, *settings: str) -> Interval:
+        """Return what prints like a claim, or what the evidence of an inferred input admits, SI.
 
-        With everything exactly as printed; `how` names a convention, or what is otherwise: the drag
-        at the middle velocity ("centered"), digits cut off ("cut"), the printed mass ("mass").
+        Everything is taken exactly as printed unless a setting is the name of a convention, or
+        changes it: the drag at the middle velocity ("centered"), digits cut off ("cut"), the
+        printed mass ("mass").
         """
-        judge = self.known.judge
-        if entry in self.known.ledger.claims:
-            return self.known.ledger.claims[entry].target()
-        for convention in how:
-            if convention in _CONVENTIONS:
-                return judge.rounded(entry, _CONVENTIONS[convention])
-        inference = self._inference(entry, *how)
-        return inference.with_mass if "mass" in how else inference.inner
+        judge = self.results.judge
+        if entry in self.results.ledger.claims:
+            return self.results.ledger.claims[entry].target()
+        for setting in settings:
+            if setting in _CONVENTIONS:
+                return judge.rounded(entry, _CONVENTIONS[setting])
+        inference = self._inference(entry, *settings)
+        return inference.with_mass if "mass" in settings else inference.inner
 
-    def _inference(self, entry: str, *how: str) -> Inference:
-        rounding = Rounding.CUT if "cut" in how else Rounding.AWAY
-        inference = self.known.judge.inference
-        return inference(entry, centered="centered" in how, rounding=rounding)
+    def _inference(self, entry: str, *settings: str) -> Inference:
+        rounding = Rounding.CUT if "cut" in settings else Rounding.AWAY
+        inference = self.results.judge.inference
+        return inference(entry, centered="centered" in settings, rounding=rounding)
 
     def calculated(self, formula: str, ar: Arithmetic | None = None, /, **numbers: Number) -> Any:
-        """The value of a formula, exact until a logarithm or a root is taken.
+        """Return the value of a formula, exact unless a logarithm or a root is taken.
 
-        Or in another arithmetic, in which some entries are given as `numbers`.
+        In another arithmetic `numbers` are the values of some entries, such as intervals.
         """
         node, names = asserted.expression(formula)
 
@@ -240,38 +243,40 @@ class Evidence:
         return evaluate(node, ar or _Exact(), {name: value(name) for name in names})
 
     def _run(self, claim: str, row: str = "", scheme: str = "published", **inputs: str) -> float:
-        """What the sheet gives for a claim in another row, by another scheme, of other inputs."""
-        computed = self.known.ledger.claims[claim].resting_on(**inputs)
+        """Return what the sheet gives for a claim in another row or scheme, or of other inputs."""
+        computed = self.results.ledger.claims[claim].resting_on(**inputs)
         computed = replace(computed, row=int(self.value(row))) if row else computed
-        return self.known.judge.answer(computed, scheme=scheme)
+        return self.results.judge.modelled(computed, scheme=scheme)
 
     def _verdicts(self, pattern: str, under: Mapping[str, object]) -> Iterator[str]:
-        """The verdicts on the claims, equations and sources whose ids have this pattern.
+        """Yield the verdicts on the sources, equations and computed claims with such an id.
 
-        `under` asks for those under some conventions, what follows a point for those in a reading.
+        `under` asks for the verdicts under all conventions with these values. What follows a point
+        in the pattern asks for those of one reading.
         """
-        known = self.known
-        if pattern in known.ledger.sources:
-            yield known.admission(known.ledger.sources[pattern]).value
-        if pattern in known.ledger.equations:
-            yield known.equation(pattern).verdict
+        results, ledger = self.results, self.results.ledger
+        if pattern in ledger.sources:
+            yield results.admission(ledger.sources[pattern]).value
+        if pattern in ledger.equations:
+            yield results.equation(pattern).verdict
         pattern, _, part = pattern.partition(".")
-        for claim in known.ledger.claims.values():
+        for claim in ledger.claims.values():
             computed = claim.computation is not None and not claim.computation.restates
             if not computed or not fnmatch(claim.id, pattern):
                 continue
-            assessment = known.assessment(claim)
-            judged = [
-                judgement.verdict
-                for reading in assessment.readings
-                if not part or reading.name == {"computed": "", "derived": DERIVED}[part]
-                for judgement in reading.judgements
-                if under.items() <= to_builtins(judgement.convention).items()
-            ]
-            yield from judged if under or part else [assessment.verdict]
+            assessment = results.assessment(claim)
+            if not under and not part:
+                yield assessment.verdict
+                continue
+            for reading in assessment.readings:
+                if part and reading.name != _READINGS[part]:
+                    continue
+                for judgement in reading.judgements:
+                    if all(getattr(judgement.convention, key) == under[key] for key in under):
+                        yield judgement.verdict
 
     def record(self) -> r.FindingRecord:
-        """The finding with its evidence, as asserted and as computed."""
+        """Return the finding with its evidence, as asserted and as computed."""
         pieces = []
         for name, assertion in self.finding.evidence.items():
             value: Value | None
@@ -291,7 +296,7 @@ class Evidence:
 
 
 class _Exact(Floats):
-    """Fractions until a logarithm or a root is taken, then doubles."""
+    """An arithmetic of fractions, which become doubles where a logarithm or a root is taken."""
 
     number = Fraction
     expm1, normal = staticmethod(math.expm1), staticmethod(NormalDist().cdf)
@@ -300,27 +305,28 @@ class _Exact(Floats):
         return Fraction(f"{float(x):.2e}")
 
 
-# What has no formula
+# Evidence that no formula expresses
 
 
 def _order(evidence: Evidence, scheme: str) -> float:
-    """Observed order of the time-step error at 10 ns, from 0.2 to 0.1 ns, for beta = 5.
+    """Return the observed order of the error at 10 ns, from steps of 0.2 and 0.1 ns, for beta = 5.
 
-    That is well before the stop, so that the stop rule has no part in it.
+    At 10 ns the particle is still fast, so that the stop rule has no influence.
     """
     errors = []
     for parts in (1, 2):
-        impact = case(evidence.known, 5, step=evidence["a-step"] / parts)
+        impact = case(evidence.results, 5, step=evidence["a-step"] / parts)
         row = sheet.run(impact, scheme).rows[50 * parts]
         assert row.velocity_final is not None
-        behind = row.depth + row.velocity_final * impact.step / 2
-        errors.append(behind - depth.depth_at_velocity(row.velocity_final, **impact.motion))
+        # The row's depth is that half a step before its final velocity.
+        reached = row.depth + row.velocity_final * impact.step / 2
+        errors.append(reached - depth.depth_at_velocity(row.velocity_final, **impact.motion))
     return math.log2(errors[0] / errors[1])
 
 
 def _first_difference(evidence: Evidence) -> Fraction:
-    """The first row in which the two schemes print another deceleration, to three digits."""
-    runs = (sheet.run(case(evidence.known, 5), scheme).rows for scheme in sheet.SCHEMES)
+    """Return the first row in which the schemes' decelerations differ in three digits."""
+    runs = (sheet.run(case(evidence.results, 5), scheme).rows for scheme in sheet.SCHEMES)
     for number, rows in enumerate(zip(*runs, strict=False)):
         if len({f"{row.deceleration:.2E}" for row in rows}) > 1:
             return Fraction(number)
@@ -328,18 +334,18 @@ def _first_difference(evidence: Evidence) -> Fraction:
 
 
 def _middle_density(evidence: Evidence) -> Fraction:
-    """The least target density at which the drag at the middle velocity gives the depth."""
-    ledger = evidence.known.ledger
+    """Return the least target density with which drag at the middle velocity gives 7.67 um."""
+    ledger = evidence.results.ledger
     claim = ledger.claims["depth-beta-5"]
     printed = {name: ledger.value(name) for name in claim.stated}
     function = ledger.function(claim, centered=True)
-    admitted = evidence.known.judge.inference(DENSITY, centered=True).outer.ends
+    admitted = evidence.results.judge.inference(DENSITY, centered=True).outer.ends
     return solve(function, DENSITY, admitted, claim.target(), SHEET_BUDGET, printed).outer[0][0]
 
 
 def _added(evidence: Evidence) -> float:
-    """The velocity after three rows of the sheet in which the accelerations are added."""
-    impact = case(evidence.known, 5)
+    """Return the velocity after three rows of a sheet that adds a dt instead of subtracting it."""
+    impact = case(evidence.results, 5)
     fixed = (impact.radius, impact.mass, impact.target_density, impact.target_resistance)
     x, v = 0.0, impact.velocity
     for row in range(3):
@@ -349,8 +355,8 @@ def _added(evidence: Evidence) -> float:
 
 
 def _nearest(evidence: Evidence) -> Fraction:
-    """The resistance on the grid that comes nearest to the observed depth, derived form."""
-    claim = evidence.known.ledger.claims["frank-zook-stainless"]
+    """Return the resistance on the grid whose derived X/R comes nearest to the observed one."""
+    claim = evidence.results.ledger.claims["frank-zook-stainless"]
     inputs = {key: evidence[name] for key, (name,) in claim.inputs.items()}
     grid, observed = Fraction(evidence.value("grid")), evidence["observed-depth-ratio"]
 
@@ -362,7 +368,7 @@ def _nearest(evidence: Evidence) -> Fraction:
 
 
 def _mean_deviation(evidence: Evidence) -> float:
-    """Mean |(d/d_0)^-1/2 - 1| V for normally distributed d > 0, by the midpoint rule in d."""
+    """Return the mean |(d/d_0)^-1/2 - 1| V for normal d > 0, by the midpoint rule in d/d_0."""
     normal = NormalDist(1.0, evidence["diameter-deviation"] / evidence["mean-diameter"])
     sizes = [(k + 0.5) / 10_000 for k in range(20_000)]
     mean = fmean((abs(d**-0.5 - 1) for d in sizes), weights=map(normal.pdf, sizes))
@@ -377,6 +383,6 @@ _BESIDES: Mapping[str, Callable[[Evidence], Value]] = {
     "two-schemes: row": _first_difference,
     "table-columns: plus": _added,
     "equation-1-scatter: drag_exact": _mean_deviation,
-    "wrong-reference: stress": lambda e: "Sigma" in e.known.ledger.printed_text("eq1"),
+    "wrong-reference: stress": lambda e: "Sigma" in e.results.ledger.printed_text("eq1"),
 }
-"""The evidence that takes a function of its own, by the finding and its name there."""
+"""The functions for evidence that has no formula, by the finding and the name of the piece."""

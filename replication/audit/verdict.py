@@ -1,9 +1,9 @@
-"""The verdicts: whether a printed number or equation follows from what the report prints."""
+"""The verdicts: whether a printed number or equation follows from the rest of the report."""
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, partial
-from itertools import islice, product
+from itertools import islice
 from math import prod
 
 import msgspec
@@ -26,12 +26,12 @@ _REALS, _RATIONALS = Reals(50), Rationals()
 class Judgement(msgspec.Struct, frozen=True):
     """The verdict under one convention.
 
-    `ends`: of a range that is proven to hold the value, in the claim's unit. Where the printed
-    inputs give the number it covers all admitted values of the inferred inputs, else all inputs
-    that print like the report's. `witness`: where the printed inputs do not give the number, some
-    (SI) that do; a radius that was computed from the mass is given by the mass. `against_evidence`:
-    some values in the range print like the claim, but their inputs are proven not to give the
-    numbers from which an input is inferred.
+    `ends` is a range proven to contain the value, in the claim's unit: if the printed inputs give
+    the number, for these and all admitted values of the inferred inputs; else for all inputs that
+    print like the report's. If the printed inputs do not give the number, `witness` holds inputs
+    (SI) that do, if some are known; it has the mass in place of a radius computed from the mass.
+    `against_evidence`: some value in the range prints like the claim, but it is proven that no
+    inputs give both it and the numbers from which an input is inferred.
     """
 
     convention: Convention
@@ -42,10 +42,10 @@ class Judgement(msgspec.Struct, frozen=True):
 
 
 class Reading(msgspec.Struct, frozen=True):
-    """What one computation makes of a claim. All numbers are in the claim's unit.
+    """The result of one computation of a claim, by one reading of the report; in the claim's unit.
 
-    `computed` is the replica's double at the inputs as printed, `reference` the same to 25 digits;
-    `judgements` hold one for every convention, the usual one first.
+    `computed` is the replica's double for the inputs as printed, `reference` the same value to 25
+    digits; `judgements` has one judgement for every convention, the usual one first.
     """
 
     name: str
@@ -61,12 +61,12 @@ class Reading(msgspec.Struct, frozen=True):
 
     @property
     def otherwise(self) -> list[Judgement]:
-        """The conventions that give another verdict."""
+        """The judgements whose verdict differs from that under the usual convention."""
         return [judgement for judgement in self.judgements if judgement.verdict != self.verdict]
 
 
 class Assessment(msgspec.Struct, frozen=True):
-    """The verdict on a claim, why, and the readings that it comes from; the first is as printed."""
+    """The verdict on a claim, its reason, and the readings behind it, the one as printed first."""
 
     verdict: Verdict
     reason: str = ""
@@ -74,24 +74,24 @@ class Assessment(msgspec.Struct, frozen=True):
 
 
 def restates(ledger: Ledger, claim: Claim) -> bool:
-    """Whether a claim that only repeats or counts agrees with what it repeats or counts.
+    """Return whether a claim that repeats a number, or counts numbers, agrees with them.
 
-    It does if some value prints like both texts and, of a bound, satisfies it.
+    A repetition agrees if some value prints like both texts; a bound must be satisfied by it.
     """
     assert claim.computation is not None
     if claim.computation.name == "count":
         return claim.target().contains(Fraction(len(claim.inputs)))
     (name,) = claim.inputs["value"]
-    # A choice or an exact number has one value; a bound or an "about" has its own interval.
+    # A choice or an exact number is one value; a bound or an "about" has an interval of its own.
     loose = claim.bound is not None or claim.kind == "approximation"
     interval = claim.target() if loose else claim.as_input(Convention())
     return interval.meets(ledger.claims[name].as_input(Convention()))
 
 
 class Judge:
-    """Judges the claims of one ledger; what several of them ask for is computed once.
+    """Judges the claims of one ledger, and computes only once what several of them need.
 
-    With `every_convention` they are judged under all of them, else under the usual one only.
+    With `every_convention` a claim is judged under all conventions, else under the usual one only.
     """
 
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
@@ -101,12 +101,15 @@ class Judge:
     def inference(
         self, name: str, *, centered: bool = False, rounding: Rounding = Rounding.AWAY
     ) -> Inference:
-        """What the evidence, so rounded, says of an unprinted input, under one of the schemes."""
+        """Infer an unprinted input under one of the schemes, with the evidence so rounded."""
         return self._inferences(name, centered=centered, rounding=rounding)
 
     @cached_property
     def assumed(self) -> Mapping[str, Fraction]:
-        """The value taken for every inferred input: the nominal one, if its evidence admits it."""
+        """The value (SI) taken for every inferred input: the nominal one if the evidence admits it.
+
+        If not, it is the middle of the admitted values.
+        """
         values = {}
         for name in (INFERRED + key for key in self.ledger.inferred):
             inner, nominal = self.inference(name).inner, self.ledger.value(name)
@@ -115,17 +118,18 @@ class Judge:
 
     @property
     def moved(self) -> set[str]:
-        """The inferred inputs whose evidence does not admit the nominal value."""
+        """The inferred inputs that are not assumed at their nominal value."""
         return {name for name, value in self.assumed.items() if value != self.ledger.value(name)}
 
     def value(self, name: str) -> Fraction:
-        """An entry's value as printed, or as assumed where it is inferred, in SI."""
+        """Return the printed or, for an inferred input, the assumed value of an entry, in SI."""
         return self.assumed[name] if name in self.assumed else self.ledger.value(name)
 
     def assess(self, claim: Claim) -> Assessment:
-        """The verdict on a claim that a computation gives; a reason only where it has no value.
+        """Return the verdict on a claim that has a computation.
 
-        A claim whose formula has none at the inputs as printed does not follow from them.
+        It is "not reproduced", with the reason, if the computation has no value for the inputs as
+        printed.
         """
         if claim.computation is not None and claim.computation.restates:
             agrees = restates(self.ledger, claim)
@@ -137,85 +141,84 @@ class Judge:
         return Assessment(readings[0].verdict, readings=readings)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
-        computation, function = claim.computations[name], self.ledger.function(claim, reading=name)
+        function = self.ledger.function(claim, reading=name)
         exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
         reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
         reference /= _REALS.number(claim.si)
         computed = float(reference)
-        if not self.ledger.misprinted:  # of a misprint in an equation the models know nothing
-            computed = float(Fraction(self.answer(claim, name)) / claim.si)
+        if not self.ledger.misprinted:  # the models know nothing of a misprint in an equation
+            computed = float(Fraction(self.modelled(claim, name)) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
         judgements = islice(self._judgements(claim, name), None if self.every_convention else 1)
         in_unit = tuple(
             replace(judgement, ends=(judgement.ends[0] / claim.si, judgement.ends[1] / claim.si))
             for judgement in judgements
         )
-        return Reading(name, computation.summary, computed, digits, in_unit)
+        return Reading(name, claim.computations[name].summary, computed, digits, in_unit)
 
-    def answer(self, claim: Claim, name: str = "", scheme: str = "published") -> float:
-        """What the models give for a claim at its inputs as printed, in SI."""
-        computation = claim.computations[name]
+    def modelled(self, claim: Claim, reading: str = "", scheme: str = "published") -> float:
+        """Return the models' value of a claim for its inputs as printed, in SI."""
+        computation = claim.computations[reading]
         inputs = {key: float(prod(map(self.value, names))) for key, names in claim.inputs.items()}
         settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
         if computation.by_scheme:
             settings["scheme"] = scheme
         return replica(computation.name, inputs, **settings)
 
-    def _judgements(self, claim: Claim, name: str) -> Iterator[Judgement]:
-        """Under every convention that makes a difference, the usual one first; ends in SI."""
+    def _judgements(self, claim: Claim, reading: str) -> Iterator[Judgement]:
+        """Yield a judgement for every convention that may matter, the usual first; ends in SI."""
         printed = self.printed(claim)
         for centered in (False, True) if claim.by_scheme else (False,):
             inferred = {e: self.inference(e, centered=centered).inner.ends for e in claim.inferred}
-            at_print = everywhere = self._range(claim, name, centered, printed)
+            at_print = admitted = self._range(claim, reading, centered, printed)
             if inferred:
-                everywhere = self._range(claim, name, centered, {**printed, **inferred})
+                admitted = self._range(claim, reading, centered, {**printed, **inferred})
             for rounding in Rounding:
                 convention, target = Convention(rounding, centered=centered), claim.target(rounding)
                 if target.excludes(*at_print):
                     conventions = _input_conventions(self.ledger, claim, convention)
-                    yield from map(partial(self._search, claim, name), conventions)
-                elif target.encloses(*everywhere):
-                    yield Judgement(convention, Verdict.REPRODUCED, everywhere)
+                    yield from map(partial(self._search, claim, reading), conventions)
+                elif target.encloses(*admitted):
+                    yield Judgement(convention, Verdict.REPRODUCED, admitted)
                 elif target.encloses(*at_print):
-                    # Only some admitted values do: the evidence does not tell which is meant.
+                    # Only some admitted values give it, and the evidence does not tell which holds.
                     witness = {entry: self.value(entry) for entry in claim.entries}
-                    yield Judgement(convention, Verdict.WITHIN_ROUNDING, everywhere, witness)
+                    yield Judgement(convention, Verdict.WITHIN_ROUNDING, admitted, witness)
                 else:
-                    yield Judgement(convention, Verdict.UNDECIDED, everywhere)
+                    yield Judgement(convention, Verdict.UNDECIDED, admitted)
 
-    def _search(self, claim: Claim, name: str, convention: Convention) -> Judgement:
-        """The inputs as printed do not give the number: do others that print like them?
+    def _search(self, claim: Claim, reading: str, convention: Convention) -> Judgement:
+        """Judge a claim that the inputs as printed do not give, by all inputs that print like them.
 
-        Those must also give the numbers from which an input is inferred. A radius that was computed
-        from the mass is given by the mass.
+        Those must also give the numbers from which an input is inferred.
         """
         target = claim.target(convention.rounding)
-        function = self.ledger.function(claim, reading=name, centered=convention.centered)
+        function = self.ledger.function(claim, reading=reading, centered=convention.centered)
         box = own_box = self.box(claim, convention)
         ends = enclose(function, box).ends
         if target.excludes(*ends):
             return Judgement(convention, Verdict.NOT_REPRODUCED, ends)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         own = constraints = [(function, target)]
-        names, wide = set(claim.entries), dict[str, Ends]()
+        witnessed, searches = set(claim.entries), dict[str, Ends]()
         for entry in claim.inferred:
             inference = self.inference(entry, centered=convention.centered)
             constraints, box = inference.joint(convention, box, constraints)
-            wide[entry] = inference.entry.search
-            if inference.entry.radius in names - box.keys():
-                names.add(inference.entry.mass)
+            searches[entry] = inference.entry.search
+            if inference.entry.radius in witnessed - box.keys():  # computed from the mass
+                witnessed.add(inference.entry.mass)
         outcome, point = satisfying(constraints, box, budget)
-        if outcome is None and wide:
-            # In halves of its whole range of search, an inferred input may be narrowed sooner.
-            outcome, point = satisfying(constraints, {**box, **wide}, budget)
-        witness = point and {entry: x for entry, x in point.items() if entry in names}
+        if outcome is None and searches:
+            # Halving its whole range of search may narrow an inferred input sooner.
+            outcome, point = satisfying(constraints, {**box, **searches}, budget)
+        witness = point and {entry: x for entry, x in point.items() if entry in witnessed}
         against_evidence = bool(
-            wide and outcome is False and satisfying(own, own_box, _BUDGET // 10)[0]
+            searches and outcome is False and satisfying(own, own_box, _BUDGET // 10)[0]
         )
         return Judgement(convention, _VERDICTS[outcome], ends, witness, against_evidence)
 
-    def telling(self, claim: Claim) -> list[str]:
-        """The inferred inputs on which a claim's value, as printed, is not proven not to depend."""
+    def relevant(self, claim: Claim) -> list[str]:
+        """Return the inferred inputs of a claim, less those proven not to influence its value."""
         inferred = {entry: self.inference(entry).inner.ends for entry in claim.inferred}
         if not inferred:
             return []
@@ -223,29 +226,29 @@ class Judge:
         return [entry for entry in claim.inferred if entry not in idle]
 
     def printed(self, claim: Claim) -> Box:
-        """The inputs of a claim as printed, or as assumed where they are inferred."""
+        """Return the inputs of a claim as printed or, where they are inferred, as assumed."""
         return {entry: (self.value(entry),) * 2 for entry in claim.entries}
 
     def box(self, claim: Claim, convention: Convention) -> Box:
-        """All inputs of a claim that print like the report's, or that its evidence admits."""
+        """Return the ranges of a claim's inputs, each as `rounded` has it."""
         return {entry: self.rounded(entry, convention).ends for entry in claim.entries}
 
     def rounded(self, entry: str, convention: Convention) -> Interval:
-        """The values of an input (SI) that print like it, or that its evidence admits."""
+        """Return the values of an input (SI) that print like it, or that its evidence admits."""
         if entry in self.ledger.claims:
             return self.ledger.claims[entry].as_input(convention)
         return self.inference(entry, centered=convention.centered).admitted(convention)
 
-    def _range(self, claim: Claim, name: str, centered: bool, box: Box) -> Ends:
-        """A proven range of a claim's values, in SI.
+    def _range(self, claim: Claim, reading: str, centered: bool, box: Box) -> Ends:
+        """Return a proven range of a claim's values, in SI.
 
-        One exact value if the box allows only one, by inputs that make a difference, and that is
-        rational: only so can it be told to lie exactly on an end of a printed interval.
+        It is one exact value if every input that has influence is one value, and the result is
+        rational: only then can it be proven to lie exactly on an end of a printed interval.
         """
-        function = self.ledger.function(claim, reading=name, centered=centered)
-        range_, computation = enclose(function, box), claim.computations[name]
+        function = self.ledger.function(claim, reading=reading, centered=centered)
+        range_, computation = enclose(function, box), claim.computations[reading]
         decided = all(claim.target(rounding).decides(*range_.ends) for rounding in Rounding)
-        # Of a whole sheet, or where a row squares twice, the fractions grow very long.
+        # Fractions grow too long over a whole sheet, and in rows that square twice (centered).
         long = computation.by_scheme and (not computation.by_row or (centered and decided))
         if long or any(box[entry][0] != box[entry][1] for entry in box.keys() - range_.idle):
             return range_.ends
@@ -259,36 +262,37 @@ class Judge:
 _VERDICTS = {
     True: Verdict.WITHIN_ROUNDING, False: Verdict.NOT_REPRODUCED, None: Verdict.UNDECIDED,
 }  # fmt: skip
-"""By whether some inputs that print like the report's give the number."""
+"""The verdict by whether inputs that print like the report's can give the number."""
 
 _BUDGET = 100
-"""Most boxes that a search tries; a tenth of it for whole sheets, each of which takes 10 ms."""
+"""The most boxes that a search tries; a tenth of it for whole sheets, which take 10 ms each."""
 
 
-def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> Iterator[Convention]:
-    """The conventions on inputs that make a difference to the claim, the usual one first.
+def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> list[Convention]:
+    """Return the conventions on inputs that may matter for a claim, the usual one first.
 
-    Where a sheet's result is taken as cut off, its inputs are exact: Table A-1, which the same
-    sheet printed, is not cut off, so it is not asked which rounded inputs would do. For a result of
-    the whole sheet the author's choices are exact: if the 5 of beta were rounded to its one digit,
-    any depth would do.
+    If the result of a sheet is taken as cut off, its inputs are exact: Table A-1 comes from the
+    same sheet and is not cut off, so it cannot tell which rounded inputs would do. For a result of
+    the whole sheet the author's choices are exact: if beta = 5 were rounded to its one digit, any
+    depth would do.
     """
-    claims = [ledger.claims[entry] for entry in claim.stated]
-    chosen = any(entry.chosen for entry in claims)
-    header = bool(claim.inferred) or any(in_header(entry.cell) for entry in claims)
     if claim.by_scheme and usual.rounding is Rounding.CUT:
-        yield replace(usual, header_exact=True)
-        return
-    choices_exact = (True, False) if chosen and not claim.by_whole_sheet else (True,)
-    for choices, head in product(choices_exact, (False, True) if header else (False,)):
-        yield replace(usual, choices_exact=choices, header_exact=head)
+        return [replace(usual, header_exact=True)]
+    claims = [ledger.claims[entry] for entry in claim.stated]
+    rests_on_choice = any(entry.chosen for entry in claims) and not claim.by_whole_sheet
+    rests_on_header = bool(claim.inferred) or any(in_header(entry.cell) for entry in claims)
+    return [
+        replace(usual, choices_exact=choices, header_exact=header)
+        for choices in ((True, False) if rests_on_choice else (True,))
+        for header in ((False, True) if rests_on_header else (False,))
+    ]
 
 
 # Equations, and the constants in them
 
 
 class EquationAssessment(msgspec.Struct, frozen=True):
-    """The verdict on an equation with the checks that it comes from."""
+    """The verdict on an equation, the checks behind it, and the verdicts on its constants."""
 
     equation: Equation
     verdict: Verdict
@@ -297,15 +301,16 @@ class EquationAssessment(msgspec.Struct, frozen=True):
 
     @property
     def factor(self) -> Fraction | None:
-        """Printed over derived; None where they do not differ, or in more than a number."""
+        """The printed over the derived side; None unless they differ by a constant factor."""
         return next((check.factor for check in self.checks if check.factor is not None), None)
 
 
 def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> EquationAssessment:
-    """The verdict on one equation, and, if they are asked for, on its constants.
+    """Return the verdict on an equation and, if `constants`, on the constants in it.
 
-    One that the report derives must pass every check; of one that it takes over only dimensions,
-    limits and signs can be checked, and it stays "not checkable" where they hold.
+    An equation that the report derives must pass every check. If the report takes it from the
+    literature, only its dimensions, limits and signs can be checked: it is "not checkable" if they
+    hold.
 
     >>> from reference.ledger import load
     >>> assess_equation(load(), "eq16").factor
@@ -318,17 +323,17 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
         "definition": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
         "taken over": (Verdict.NOT_CHECKABLE, Verdict.NOT_REPRODUCED),
     }[equation.kind]
-    judged = _constants(ledger, name, holds) if constants else {}
-    return EquationAssessment(equation, passed if holds else failed, checks, judged)
+    records = _constants(ledger, name, holds) if constants else {}
+    return EquationAssessment(equation, passed if holds else failed, checks, records)
 
 
 def follows(ledger: Ledger, name: str) -> bool:
-    """Whether an equation passes every check."""
+    """Return whether an equation passes every check."""
     return all(check.holds for check in _checks(ledger, name))
 
 
 def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
-    """Its derivation first: the dimensions alone are seldom what is wrong."""
+    """Yield the checks of an equation, the dimensions last, as they are seldom what is wrong."""
     try:
         ledger.read(ledger.printed_text(name))
     except EquationError as error:
@@ -349,10 +354,14 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
 
 
 def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantRecord]:
+    """Judge each constant of an equation by the values in its place that pass every check.
+
+    It is reproduced if only the printed value does, not reproduced if only other values do.
+    """
     printed = {claim: ledger.value(claim) for claim in ledger.constants_of(name)}
 
     def passing(claim: str, corrected: Mapping[str, Fraction]) -> list[Fraction]:
-        """The values of a constant with which every check holds, another constant corrected."""
+        """Return the values of a constant that pass every check, given corrected constants."""
         tried = sorted({*_USUAL, *(printed[claim] * factor for factor in (1, 2, Fraction(1, 2)))})
         texts = {value: ledger.printed_text(name, {**corrected, claim: value}) for value in tried}
         return [v for v, text in texts.items() if follows(ledger.misprint(name, text), name)]
@@ -360,7 +369,7 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
     needed = {claim: passing(claim, {}) for claim in printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
     if len(repairs) == 1:
-        # The others are judged with that one corrected.
+        # The other constants are judged with this one corrected.
         (culprit,) = repairs
         corrected = {culprit: needed[culprit][0]}
         needed |= {claim: passing(claim, corrected) for claim in printed if claim != culprit}
@@ -374,4 +383,4 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
 
 
 _USUAL = tuple(map(Fraction, ("1/4", "1/3", "1/2", "2/3", "1", "4/3", "3/2", "2", "7/3", "3", "4")))
-"""Constants that equations of physics have; a printed one is told apart from all of these."""
+"""Common constants of physical equations, each tried in the place of a printed constant."""

@@ -58,7 +58,7 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:
     judgement, ledger = reading.judgements[0], judge.ledger
     proven = between(judgement.ends, 6)
     match judgement.verdict:
-        case Verdict.REPRODUCED if judge.telling(claim):
+        case Verdict.REPRODUCED if judge.relevant(claim):
             return f"For the target densities that Table A-1 admits: {proven}."
         case Verdict.REPRODUCED:
             return ""
@@ -128,7 +128,7 @@ _UNUSUAL = (
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
     """What the verdict takes for granted beyond the printed text."""
     assumed = [] if claim.assumes is None else [claim.assumes]
-    telling = claim.inferred if computed is None else judge.telling(claim)
+    telling = claim.inferred if computed is None else judge.relevant(claim)
     for name in telling:
         inference = judge.inference(name)
         value = quantity(number(judge.value(name)), judge.ledger.unit(name))

@@ -13,7 +13,7 @@ from reference.findings import Assertion
 from reference.findings import load as load_findings
 from reference.ledger import INFERRED, Claim, Ledger, load
 from replication.audit.audit import audit
-from replication.audit.findings import Evidence, Known
+from replication.audit.findings import Evidence, Results
 from replication.audit.record import FindingRecord, Record
 
 LEDGER = load()
@@ -116,7 +116,7 @@ def test_every_finding_has_evidence_and_all_of_it_is_asserted(record: Record) ->
 def test_verdicts_on_nothing_or_on_another_reading_show_nothing(question: str, answer: str) -> None:
     piece = convert({"says": "yes", "means": "-", **json.loads(question)}, Assertion)
     finding = replace(FINDINGS["headline"], evidence={"piece": piece})
-    assert str(Evidence(Known(LEDGER), finding).value("piece")) == answer
+    assert str(Evidence(Results(LEDGER), finding).value("piece")) == answer
 
 
 MISPRINTS = pairs("replication/kept.txt", "Misprints, and the findings that rest on them")
