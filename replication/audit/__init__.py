@@ -1,7 +1,7 @@
 """The audit: a verdict with its proof for every number that the report prints.
 
-`replication.audit` is this package and, called, the finished audit as a `Record`: its claims with
-their verdicts, its findings and tables. Nothing is written.
+The package can itself be called: `audit()` returns the finished audit as a `Record`, with all
+claims and their verdicts, the findings and the tables. It writes no files.
 
 >>> from replication import audit
 >>> print(audit().claim("depth-beta-5").verdict)

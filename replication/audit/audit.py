@@ -1,4 +1,4 @@
-"""The audit: every verdict, explanation and finding, computed once, as one record."""
+"""The audit: every verdict, explanation and finding, put together as one record."""
 
 import sys
 from fractions import Fraction
@@ -28,7 +28,7 @@ from replication.text import number, powers_of_ten
 
 
 def audit(ledger: Ledger | None = None) -> r.Record:
-    """Audit every number and equation of the report, or of a copy of its ledger with a misprint."""
+    """Audit every number and equation of the report, or of a ledger with planted misprints."""
     return Audit(ledger or ledgers.load()).record()
 
 
@@ -36,7 +36,7 @@ class Audit(Results):
     """The audit of one ledger."""
 
     def record(self) -> r.Record:
-        """The finished audit, as data."""
+        """Return the finished audit as data."""
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
         findings = [Evidence(self, finding).record() for finding in asserted.load().values()]
@@ -92,17 +92,17 @@ class Audit(Results):
     # Claims
 
     def claim(self, claim: Claim) -> r.ClaimRecord:
-        """One claim, as data."""
+        """Return the record of one claim."""
         assessment = self.assessment(claim)
         readings = [self._reading(claim, reading) for reading in assessment.readings]
-        read, *others = readings or [_UNREAD]
+        as_printed, *others = readings or [_NO_READING]
         is_open = assessment.verdict.is_open
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         ends = interval and (interval.lower, interval.upper)
         restates = claim.computation is not None and claim.computation.restates
         return r.filled(
             r.ClaimRecord,
-            *(claim, claim.place, read),
+            *(claim, claim.place, as_printed),
             cell=claim.cell,
             where=str(claim.place),
             quote=" ".join(claim.quote.split()),
@@ -112,12 +112,12 @@ class Audit(Results):
             interval_text=str(interval) if interval else None,
             verdict=assessment.verdict,
             restates=claim.inputs["value"][0] if restates and "value" in claim.inputs else None,
-            error_in_last_digit=_error(claim, read.computed),
+            error_in_last_digit=_error(claim, as_printed.computed),
             readings=others,
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
-            assumes=wording.assumptions(self.judge, claim, read.computed),
+            assumes=wording.assumptions(self.judge, claim, as_printed.computed),
             explanation=assessment.reason,
-            **self._worked(claim, read.computed),
+            **self._worked(claim, as_printed.computed),
             shown_by=self.shown(claim),
             sources=self.sources(claim.id),
             figures=comparison.figures(self) if claim.kind == "remark" else [],
@@ -143,9 +143,9 @@ class Audit(Results):
         )
 
     def _worked(self, claim: Claim, computed: float | None) -> dict[str, str | None]:
-        """The claim's formula with the numbers in it, its equation, and the steps by hand.
+        """Return a claim's formula with its numbers put in, its equation, and the steps by hand.
 
-        Only of a claim that is not reproduced and that one equation of the report gives.
+        All are None unless the claim is not reproduced and an equation of the report gives it.
         """
         nothing = dict.fromkeys(("formula", "mathml", "by_hand"))
         premises = claim.computation.premises if claim.computation else {}
@@ -154,37 +154,38 @@ class Audit(Results):
             return nothing
         *_, premise = premises.values()
         left, right = self.ledger.sides[premise.equation]
-        values = {"D": Fraction(1)}  # L is given in diameters
+        values = {"D": Fraction(1)}  # the ledger gives L in diameters
         for symbol, text in premise.put.items():
             if len(names := claim.inputs.get(text, ())) == 1:
                 values[symbol] = self.judge.value(*names)
-        at = {key: float(value) for key, value in values.items()}
-        worth = partial(evaluate, ar=Floats(), values=at)
+        doubles = {key: float(value) for key, value in values.items()}
+        value_of = partial(evaluate, ar=Floats(), values=doubles)
         try:
-            if not isclose(worth(right), computed, rel_tol=1e-9):
+            if not isclose(value_of(right), computed, rel_tol=1e-9):
                 return nothing
         except NoValueError:
             return nothing
-        put = self._shown | {key: _short(value) for key, value in values.items()}
-        numbers = partial(rendered, shown=put, notation=_NUMBERS)
+        put_in = self._symbols | {key: _short(value) for key, value in values.items()}
+        with_numbers = partial(rendered, shown=put_in, notation=_NUMBERS)
         factors = right.parts if right.kind == "product" else (right,)
-        texts, result = [f"{worth(factor):#.5g}" for factor in factors], f"{computed:#.3g}"
-        steps = [f"{numbers(factor)} = {text}" for factor, text in zip(factors, texts, strict=True)]
+        texts, result = [f"{value_of(factor):#.5g}" for factor in factors], f"{computed:#.3g}"
+        steps = [f"{with_numbers(f)} = {text}" for f, text in zip(factors, texts, strict=True)]
         if len(steps) > 1:
             steps.append(f"{' · '.join(texts)} = {result}")
-        symbols = (rendered(side, self._shown) for side in (left, right))
+        in_symbols = (rendered(side, self._symbols) for side in (left, right))
         return {
-            "formula": " = ".join((*symbols, numbers(right), result)),
+            "formula": " = ".join((*in_symbols, with_numbers(right), result)),
             "mathml": self._mathml(premise.equation),
             "by_hand": f"{'; '.join(steps)}.",
         }
 
     @cached_property
-    def _shown(self) -> dict[str, str]:
+    def _symbols(self) -> dict[str, str]:
+        """How a page shows each symbol, by its name in the ledger."""
         return {key: symbol.shown for key, symbol in self.ledger.symbols.items()}
 
     def _mathml(self, equation: str) -> str:
-        sides = (rendered(side, self._shown, MATHML) for side in self.ledger.sides[equation])
+        sides = (rendered(side, self._symbols, MATHML) for side in self.ledger.sides[equation])
         return f'<math display="block">{"<mo>=</mo>".join(sides)}</math>'
 
     # Equations and inferred inputs
@@ -227,15 +228,14 @@ class Audit(Results):
         )
 
 
-_UNREAD: Any = SimpleNamespace(
-    computed=None, reference=None, enclosure=None, enclosure_exact=None, witness=None, holds="",
-    otherwise=[],
-)  # fmt: skip
-"""In place of a reading, of a claim that nothing computes."""
+_NO_READING: Any = SimpleNamespace(
+    **{**dict.fromkeys(r.ReadingRecord.__struct_fields__), "holds": "", "otherwise": []}
+)
+"""The reading of a claim that no computation gives."""
 
 
 def _short(value: Fraction) -> str:
-    """A number as it is put into a formula: 2/3, 8900, 7.6×10⁹."""
+    """Return a number as it is put into a formula, such as 2/3, 8900 or 7.6×10⁹."""
     return str(value) if 1 < value.denominator < 10 else powers_of_ten(number(value))
 
 
@@ -244,11 +244,11 @@ _NUMBERS = replace(
     times=" · ",
     fraction=lambda over, under: over if under == "1" else f"{over}/{under}",
 )
-"""The notation of an equation with numbers in it: 2 · 3 for 2 3, and a for a/1."""
+"""The notation of an equation with numbers put in: a dot between factors, and a for a/1."""
 
 
 def _error(claim: Claim, computed: float | None) -> float | None:
-    """Computed minus printed, in units of the last printed digit; None where that says nothing."""
+    """Return computed less printed, in units of the last printed digit; None if it has no unit."""
     printed = claim.printed
     if computed is None or printed is None or claim.bound is not None or printed.quantum == 0:
         return None
@@ -257,7 +257,7 @@ def _error(claim: Claim, computed: float | None) -> float | None:
 
 
 def _proven(judgement: Judgement) -> dict[str, Any]:
-    """The range proven for a value: as doubles, never narrower, and exactly."""
+    """Return the fields for a proven range: as doubles, never narrower, and exactly."""
     return {
         "enclosure": _doubles(*judgement.ends),
         "enclosure_exact": tuple(map(str, judgement.ends)),
@@ -265,20 +265,20 @@ def _proven(judgement: Judgement) -> dict[str, Any]:
 
 
 def _doubles(lower: Fraction, upper: Fraction, inward: bool = False) -> tuple[float, float]:
-    """Ends as doubles, rounded so that the interval never narrows, or if `inward` never widens."""
+    """Round the ends to doubles so that the interval never narrows, or if `inward` never widens."""
     if inward:
         return -_down(-lower), _down(upper)
     return _down(lower), -_down(-upper)
 
 
 def _down(value: Fraction) -> float:
-    """The greatest double that is not above the value."""
+    """Return the greatest double that is not above the value."""
     double = float(value)
     return nextafter(double, -inf) if Fraction(double) > value else double
 
 
 def _provenance() -> dict[str, object]:
-    """The programs that the audit was made with, and the hashes of the files that it read."""
+    """Return the versions of the programs in use and the hashes of the files that were read."""
     folder = resources.files("reference") / "report"
     libraries = ("coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter")
     files = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")

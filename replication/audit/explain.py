@@ -1,4 +1,8 @@
-"""What would explain a number that does not follow: nothing here is asserted, all is tried."""
+"""Possible explanations of a number that does not follow from the report.
+
+Nothing of this is asserted: inputs, misprints and slips are tried, and those that would give the
+number are listed.
+"""
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
@@ -16,43 +20,41 @@ from reference.units import to_si
 from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, Shown, SlipRecord
 from replication.audit.verdict import Judge, follows, restates
 
-# A quick look
+# A check in doubles
 
 _CLOSE = Fraction(1, 10**9)
-"""How near a double must come to an exact number, such as 2/3; relative."""
-
+"""The largest relative difference at which a double agrees with an exact number, such as 2/3."""
 
 Values = Mapping[str, Fraction]
-"""Other values of some entries than printed, in SI."""
+"""Values of some entries (SI) in place of the printed ones."""
 
 
 def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> bool:
-    """Whether a claim with a computation agrees, some entries changed."""
+    """Return whether a claim agrees with its computation, some entries changed."""
     if claim.computations[reading].restates:
         return restates(ledger, claim)
-    target, inputs = claim.target(), {}
-    for name in claim.entries:
-        inputs[name] = float(changed[name] if name in changed else ledger.value(name))
+    target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
+    inputs = {name: float(changed.get(name, value)) for name, value in values.items()}
     try:
         value = Fraction(ledger.function(claim, reading=reading)(Floats(), **inputs))
     except (ArithmeticError, ValueError, TypeError):
-        return False  # in doubles these inputs have no result, or only a complex one
+        return False  # these inputs give no result, or only a complex one
     if target.is_point and target.lower is not None:
         return abs(value - target.lower) <= _CLOSE * abs(target.lower)
     return target.contains(value)
 
 
 def disagreeing(ledger: Ledger, names: Iterable[str], changed: Values) -> set[str]:
-    """Those of the claims that do not agree, some entries changed."""
+    """Return which of the claims disagree with their computations, some entries changed."""
     claims = (ledger.claims[name] for name in names)
     return {c.id for c in claims if c.computation is not None and not agrees(ledger, c, changed)}
 
 
 def dependents(ledger: Ledger, name: str) -> set[str]:
-    """The claims whose verdict may change with an entry or an equation, itself among them.
+    """Return the claims whose verdicts may change with a claim or an equation, itself included.
 
-    A claim that rests on an inferred input also depends on the evidence for it, and on all that
-    this rests on; an input that other claims confirm depends on them.
+    A claim that rests on an inferred input depends on the evidence for that input, and on all that
+    the evidence rests on. An input that other claims confirm depends on those claims.
     """
     within = ledger.equation_of(name)
     direct = {
@@ -71,21 +73,21 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
 
 
 class Explainer:
-    """Explanations for the failing claims of one ledger."""
+    """Finds possible explanations for the failing claims of one ledger."""
 
     def __init__(self, judge: Judge) -> None:
         self.judge, self.ledger = judge, judge.ledger
-        self._repairs_by = cache(self._edited)  # a culprit is looked for among the same edits
+        self._repairs_by = cache(self._edited)  # several failing claims try the same edits
 
     @cached_property
-    def _taken(self) -> list[Values]:
-        """The values of the inferred inputs: as the ledger has them, and as assumed."""
+    def _alternatives(self) -> list[Values]:
+        """The values of the inferred inputs to try: the nominal and the assumed ones."""
         return [{}, self.judge.assumed] if self.judge.moved else [{}]
 
     # Single inputs
 
     def back_solved(self, claim: Claim) -> list[BackSolvedRecord]:
-        """For every reading of a claim, the values of each entry alone with which it agrees."""
+        """Return, for every reading and input, the values of this input that give the number."""
         ledger, records = self.ledger, []
         for reading, name in product(claim.computations, claim.entries):
             entry = ledger.claims.get(name)
@@ -113,7 +115,7 @@ class Explainer:
         return records
 
     def solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
-        """The values of an entry (SI), the others as printed, with which a reading agrees."""
+        """Return the values (SI) of an entry, the others as printed, for which a reading agrees."""
         others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
         function = self.ledger.function(claim, reading=reading)
         low, high, _ = self.ledger.search(name)
@@ -121,40 +123,40 @@ class Explainer:
         return solve(function, name, (low, high), claim.target(), budget, others)
 
     def shown(self, chosen: Claim) -> Shown | None:
-        """The values around a chosen number for which the claims that confirm it agree.
+        """Return the range around a chosen number for which the claims that confirm it agree.
 
-        Where they begin to disagree is found by bisection, in doubles. None if no claim confirms
-        the number, or if one disagrees with the number itself.
+        Its ends are found by bisection, in doubles. It is None if no claim confirms the number, or
+        if one of them disagrees with it.
         """
-        if not chosen.shown_by or not self._is_shown(chosen, chosen.value):
+        if not chosen.shown_by or not self._is_confirmed(chosen, chosen.value):
             return None
         ends = []
-        for far in self.ledger.search(chosen.id)[:2]:
-            good, bad = chosen.value, far
+        for limit in self.ledger.search(chosen.id)[:2]:
+            good, bad = chosen.value, limit
             for _ in range(_BISECTIONS):
                 middle = (good + bad) / 2
-                good, bad = (middle, bad) if self._is_shown(chosen, middle) else (good, middle)
+                good, bad = (middle, bad) if self._is_confirmed(chosen, middle) else (good, middle)
             ends.append(float(good / chosen.si))
         return Shown(claims=list(chosen.shown_by), interval=(ends[0], ends[1]), unit=chosen.unit)
 
-    def _is_shown(self, chosen: Claim, value: Fraction) -> bool:
-        """Whether all claims that confirm a number agree with this value of it (SI)."""
+    def _is_confirmed(self, chosen: Claim, value: Fraction) -> bool:
+        """Return whether all claims that confirm a number agree with this value (SI) of it."""
         ledger, changed = self.ledger, {**self.judge.assumed, chosen.id: value}
         return all(agrees(ledger, ledger.claims[name], changed) for name in chosen.shown_by)
 
     # Misprints
 
     def repairs(self, name: str) -> list[RepairRecord]:
-        """Texts one edit away with which a claim or an equation agrees; the likeliest first.
+        """Return the one-edit corrections that make a claim or an equation agree, likeliest first.
 
-        A repair with which fewer claims fail comes before one with which more do; of equal ones the
-        likelier typing error comes first. A constant is repaired together with its equation.
+        The fewer claims fail with a repair, the likelier it is; among equals, the likelier typing
+        error comes first. A constant is repaired together with its equation.
         """
         name = self.ledger.equation_of(name) or name
         return self._repairs(name, self._suspects(name))
 
     def _repairs(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
-        """The edits of these entries that make a claim or an equation agree, best first."""
+        """Return the edits of these entries that make a claim agree, likeliest first."""
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
         repairs = [repair for entry in entries for repair in self._repairs_by(name, entry)]
         repairs.sort(key=lambda r: (
@@ -181,7 +183,7 @@ class Explainer:
         return repairs
 
     def _suspects(self, name: str) -> set[str]:
-        """Where a misprint may be: in it, in its entries, in its equations and their constants."""
+        """Return what may be misprinted: it, its inputs, its equations and their constants."""
         ledger = self.ledger
         if name in ledger.equations:
             premises = ledger.equations[name].premises.values()
@@ -192,32 +194,33 @@ class Explainer:
             beside = {key for key in (claim.against, claim.within) if key}
             suspects = {name, *claim.stated} | beside | equations
             for unknown in self.judge.moved.intersection(claim.entries):
-                # Its evidence does not admit the nominal value: what it rests on may be misprinted.
+                # Its evidence excludes the nominal value, so what that rests on may be misprinted.
                 evidence = ledger.inferred[unknown.removeprefix(INFERRED)].evidence
                 suspects |= {entry for piece in evidence for entry in ledger.claims[piece].stated}
-        return suspects | {c for e in equations for c in ledger.constants_of(e)}
+        return suspects | {c for equation in equations for c in ledger.constants_of(equation)}
 
     def _agreeing(self, name: str, entry: str, changed: Ledger) -> str | None:
-        """The first reading of a claim or equation that agrees in a ledger with a changed entry.
+        """Return the first reading of a claim or equation that agrees once an entry is changed.
 
-        A number that nothing computes has to agree with its sources and with what confirms it.
+        A number without a computation agrees if its sources and the claims that confirm it do.
         """
         within = changed.equation_of(name)
         if within is not None:
             return "" if follows(changed, within) else None
         claim, sources = changed.claims[name], changed.sources_of(name)
         if claim.computation is not None:
-            pairs = product(claim.computations, self._taken)
-            return next((r for r, taken in pairs if agrees(changed, claim, taken, r)), None)
-        if entry != name or not self._is_shown(claim, claim.value):
+            pairs = product(claim.computations, self._alternatives)
+            return next((r for r, values in pairs if agrees(changed, claim, values, r)), None)
+        if entry != name or not self._is_confirmed(claim, claim.value):
             return None
         sourced = not sources or any(claim.target().meets(s.interval) for s in sources)
         return "" if sourced else None
 
     def _failing(self, entry: str, changed: Ledger) -> set[str]:
-        """All claims and equations that fail with the edit, also those that it does not touch."""
+        """Return all claims and equations that fail once an entry is changed."""
         touched, within = dependents(self.ledger, entry), self.ledger.equation_of(entry)
-        failing = min((disagreeing(changed, touched, taken) for taken in self._taken), key=len)
+        tries = (disagreeing(changed, touched, values) for values in self._alternatives)
+        failing = min(tries, key=len)
         if within is not None:
             touched.add(within)
             failing |= set() if follows(changed, within) else {within}
@@ -225,22 +228,22 @@ class Explainer:
 
     @cached_property
     def _failing_now(self) -> set[str]:
+        """All claims and equations that fail in the ledger as it is."""
         claims = disagreeing(self.ledger, self.ledger.claims, self.judge.assumed)
         return claims | {name for name in self.ledger.equations if not follows(self.ledger, name)}
 
-    # One culprit for all that fails
+    # One misprint behind several failures
 
     def ranked(self, names: Collection[str]) -> list[RepairRecord]:
-        """The repairs that may explain all that fails at once, the best first.
+        """Return the repairs that may explain several failures at once, likeliest first.
 
-        If one misprint is behind several failures, it stands in an entry that all of them rest on:
-        only such entries are searched, and the repairs are ordered as by `repairs`. If no entry is
-        common to all, the repairs of the claim that is quickest to compute are given. An input that
-        fails only because claims that rest on it do is left out: it says no more than they do.
+        A misprint behind all of them stands in an entry that all rest on, so only such entries are
+        tried. If these give no repair, those of the claim that is quickest to compute are returned.
+        An input that fails only because the claims computed from it do is left out.
         """
         claims = self.ledger.claims
-        doubted = {c.id for c in claims.values() if c.computation is None and c.shown_by}
-        names = [name for name in names if name not in doubted]
+        confirmed = {c.id for c in claims.values() if c.computation is None and c.shown_by}
+        names = [name for name in names if name not in confirmed]
         if not names:
             return []
         quickest = min(names, key=self._cost)
@@ -250,21 +253,21 @@ class Explainer:
         return repairs if repairs or len(names) == 1 else self.ranked([quickest])
 
     def _cost(self, name: str) -> tuple[int, str]:
-        """What claims are sorted by: the quickest to compute first, whole sheets last."""
+        """Return a key that sorts claims by the time to compute them, whole sheets last."""
         claim = self.ledger.claims.get(name)
         if claim is None or claim.computation is None or claim.computation.restates:
             return 2 if self.ledger.equation_of(name) else 0, name
         return 1 + 2 * claim.by_scheme + claim.by_whole_sheet, name
 
     def culprit(self, names: Collection[str]) -> RepairRecord | None:
-        """The one repair with which all these claims agree, if there is one."""
+        """Return the one repair with which nothing fails, if several claims fail now."""
         repairs = self.ranked(names) if len(names) > 1 else []
         return repairs[0] if repairs and not repairs[0].failing else None
 
     # Slips
 
     def slips(self, claim: Claim) -> list[SlipRecord]:
-        """The claim computed with each slip that the ledger knows of its equations."""
+        """Return what each slip of the author's that the ledger lists would give for a claim."""
         target, rounded, records = claim.target(), Convention(choices_exact=False), []
         for slip in (slip for slip in self.ledger.slip if slip.equation in claim.uses):
             ledger = self.ledger
@@ -274,7 +277,7 @@ class Explainer:
             changed = claim.resting_on(**inputs)
             function = ledger.function(changed)
             value, fits = None, ""
-            with suppress(ArithmeticError):  # no value, or no bounded one, of misprinted inputs
+            with suppress(ArithmeticError):  # misprinted inputs may give no finite value
                 at_print = enclose(function, self.judge.printed(changed)).ends
                 value, fits = float(at_print[0] / claim.si), "not excluded within rounding"
                 if target.encloses(*at_print):
@@ -286,31 +289,31 @@ class Explainer:
 
 
 _BISECTIONS = 40
-"""They narrow the search to 1e-12 of its width, which is finer than any page shows."""
+"""So many narrow the search to 1e-12 of its width, which is finer than any page shows."""
 
 _BUDGET = 250
-"""Most parts of a search: k_t, on which the depth hardly depends, takes some 200 of them."""
+"""The most parts of a search; some 200 are needed for k_t, as the depth hardly depends on it."""
 
 SHEET_BUDGET = 25
-"""The same for whole sheets, each of which takes 10 ms, or 100 ms where it takes long to stop."""
+"""The most parts for whole sheets: one takes 10 ms, or 100 ms if the particle stops late."""
 
 _SHOWN = 20
-"""So many repairs of one claim are kept, the likeliest first."""
+"""The most repairs that are listed for one claim."""
 
 
-# Texts that are one typing error away from a printed number or equation
+# Texts that differ from a printed number or equation by one typing error
 
 EQUATION_EDITS = (
     "number dropped", "symbol changed", "sign changed", "function changed", "fraction turned over",
 )  # fmt: skip
-"""Kinds of edits of an equation. Its numbers are claims, which are edited as all other numbers."""
+"""The kinds of edits of an equation. The numbers in it are claims, which have their own edits."""
 
 _LEADING_ZERO = re.compile(r"~?\s*0\d")
 _EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
 
 
 def edits_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
-    """Every text one edit away from a claim's or an equation's, with the kind of the edit."""
+    """Yield every text one edit away from that of a claim or an equation, with the kind of edit."""
     if name in ledger.equations:
         yield from equation_edits(ledger, name)
     elif ledger.claims[name].printed is not None:
@@ -318,9 +321,9 @@ def edits_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
 
 
 def edits(text: str) -> Iterator[tuple[str, str]]:
-    """Every text one edit of a number away that is another, with the edit's kind; none twice.
+    """Yield every text one edit away that is another number, with the kind of edit; none twice.
 
-    The base of a power of ten is no digit, and no number begins with a zero before a digit.
+    The base of a power of ten is not edited, and no text begins with a zero before a digit.
 
     >>> [text for text, kind in edits("0.278") if kind in ("digits swapped", "digit doubled")]
     ['2.078', '0.728', '0.287', '0.2278', '0.2778', '0.2788']
@@ -338,7 +341,7 @@ def edits(text: str) -> Iterator[tuple[str, str]]:
 
 
 def _number(text: str) -> tuple[Fraction, tuple[Fraction, ...]] | None:
-    """The value of a text and the places that its last digit may have, if it is a number."""
+    """Return a text's value and the units its last digit may have; None if it is no number."""
     try:
         printed = parse(text)
     except ValueError:
@@ -347,20 +350,20 @@ def _number(text: str) -> tuple[Fraction, tuple[Fraction, ...]] | None:
 
 
 def _digits(text: str) -> list[int]:
-    """Where the digits of the mantissa stand; exponents are edited by `_shifted`."""
+    """Return the positions of the mantissa's digits; `_shifted` edits the exponents."""
     power = _EXPONENT.search(text)
     return [k for k, c in enumerate(text) if c.isdigit() and (power is None or k < power.start())]
 
 
 def _swapped(text: str) -> Iterator[str]:
-    for here, there in pairwise(_digits(text)):
-        between = text[here + 1 : there]
+    for first, second in pairwise(_digits(text)):
+        between = text[first + 1 : second]
         if between in ("", "."):
-            yield text[:here] + text[there] + between + text[here] + text[there + 1 :]
+            yield text[:first] + text[second] + between + text[first] + text[second + 1 :]
 
 
 def _shifted(text: str) -> Iterator[str]:
-    """The exponent one less and one more, written as wide as it was, or its sign turned."""
+    """Yield the text with its exponent less one, plus one or negated, in as many characters."""
     for match in _EXPONENT.finditer(text):
         number = match["number"]
         for exponent in (int(number) - 1, int(number) + 1, -int(number)):
@@ -398,13 +401,13 @@ _EDITS: Mapping[str, Callable[[str], Iterable[str]]] = {
     ),
 }  # fmt: skip
 NUMBER_EDITS = tuple(_EDITS)
-"""Kinds of edits of a number. The fewer texts a kind has, the less likely one fits by chance."""
+"""The kinds of edits of a number, those with few texts first: these seldom fit by chance."""
 
 
 def equation_edits(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
-    r"""Every equation one edit away, with the kind of the edit.
+    r"""Yield every equation one edit away, with the kind of edit.
 
-    A symbol is mistaken for another of the same dimension.
+    A symbol is replaced only by others of the same dimension.
 
     >>> from reference.ledger import load
     >>> [text for text, kind in equation_edits(load(), "diameter") if kind == "number dropped"]
@@ -424,9 +427,9 @@ def equation_edits(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
             replacements = [_OPPOSITE[token]]
         elif symbol := written.get(token):
             replacements = [
-                another
-                for another, meant in written.items()
-                if meant != symbol and dimensions[meant] == dimensions[symbol]
+                spelling
+                for spelling, name in written.items()
+                if name != symbol and dimensions[name] == dimensions[symbol]
             ]
         for replacement in replacements:
             edits.setdefault(text[: match.start()] + replacement + text[match.end() :], kind)

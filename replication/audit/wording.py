@@ -1,4 +1,4 @@
-"""The sentences of the record: why a verdict is what it is, and what it takes for granted."""
+"""The sentences of the record: why an entry has its verdict, and what the verdict assumes."""
 
 from collections.abc import Sequence
 from fractions import Fraction
@@ -7,14 +7,14 @@ from reference.ledger import Claim, Ledger
 from reference.printed import Interval, Rounding
 from reference.units import to_si
 from replication.audit.record import ConstantRecord, Shown, SourceRecord, Verdict
-from replication.audit.verdict import Assessment, EquationAssessment, Judge, Reading
+from replication.audit.verdict import Assessment, EquationAssessment, Judge, Judgement, Reading
 from replication.text import between, number, quantity
 
-REMARK = "A remark, no number: the figures below are what it can be judged by."
+REMARK = "A remark, not a number: the figures below help to judge it."
 
 
 def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
-    """Why a claim that a computation gives, or that repeats another, has its verdict."""
+    """Explain the verdict on a claim that has a computation, or repeats another claim."""
     if assessed.reason:
         return f"With the numbers as printed it cannot be computed: {assessed.reason}."
     if not assessed.readings:
@@ -29,23 +29,24 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     inside = "" if first.verdict is Verdict.REPRODUCED else "not "
     relation, shown = "as" if interval.is_point else "in", str(interval).replace("E", "e")
     value = quantity(number(first.computed), claim.unit)
-    sentences = [f"{what}: {value}, {inside}{relation} {shown}.", _reason(judge, claim, first)]
+    reason = _reason(judge, claim, first.judgements[0])
+    sentences = [f"{what}: {value}, {inside}{relation} {shown}.", *filter(None, [reason])]
     for reading in others:
         value = quantity(number(reading.computed), claim.unit)
         proven, but = between(reading.judgements[0].ends, 6), _exceptions(claim, reading)
         verdict = f"{reading.verdict}{f' ({but})' * bool(but)}"
         sentences.append(f"Read as {reading.name}: {value}, {verdict}; proven range {proven}.")
-    return " ".join(filter(None, sentences))
+    return " ".join(sentences)
 
 
 def origin(claim: Claim) -> str:
-    """Where a number comes from that nothing in the report computes, as a sentence."""
+    """Return a sentence on the origin of a number that nothing in the report computes."""
     why = "the author's choice" if claim.given == "choice" else claim.why or ""
     return f"{why[:1].upper()}{why[1:]}."
 
 
 def fitting(ledger: Ledger, claim: Claim, shown: Shown | None) -> str:
-    """What is known of a number that nothing computes, by what is computed from it."""
+    """Explain the verdict on a number without a computation by what is computed from it."""
     if shown is None:
         return f"{origin(claim)} What is computed from it does not come out as printed."
     text = quantity(between(shown.interval, 4, inward=True), shown.unit)
@@ -54,14 +55,13 @@ def fitting(ledger: Ledger, claim: Claim, shown: Shown | None) -> str:
     return f"{origin(claim)} For {text} {come} out as printed: {titles}."
 
 
-def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:
-    judgement, ledger = reading.judgements[0], judge.ledger
-    proven = between(judgement.ends, 6)
+def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
+    """Return the proof behind a judgement as a sentence; empty where the value says it all."""
+    ledger, proven = judge.ledger, between(judgement.ends, 6)
     match judgement.verdict:
-        case Verdict.REPRODUCED if judge.relevant(claim):
-            return f"For the target densities that Table A-1 admits: {proven}."
         case Verdict.REPRODUCED:
-            return ""
+            relevant = judge.relevant(claim)
+            return f"For the target densities that Table A-1 admits: {proven}." if relevant else ""
         case Verdict.WITHIN_ROUNDING:
             inputs = []
             for name, si in (judgement.witness or {}).items():
@@ -71,10 +71,10 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:
         case Verdict.NOT_REPRODUCED if judgement.ends[0] == judgement.ends[1]:
             return "No rounded input enters, so none could change it."
         case Verdict.NOT_REPRODUCED if judgement.against_evidence:
-            titles = " and ".join(ledger.title(name) for name in claim.inferred)
+            titles = " and ".join(map(ledger.title, claim.inferred))
             return (
                 f"Proven for inputs that print like the report's: its range is {proven}, "
-                "part of which rounds to the print, but no inputs that give this number also give "
+                "part of which rounds to the printed number, but no inputs that give this number also give "
                 f"the numbers from which the {titles} is inferred."
             )
         case Verdict.NOT_REPRODUCED:
@@ -86,21 +86,21 @@ def _reason(judge: Judge, claim: Claim, reading: Reading) -> str:
 
 
 def holds(claim: Claim, reading: Reading) -> str:
-    """Under which conventions the verdict holds, and which would change it."""
+    """Say under which conventions the verdict holds, and which would change it."""
     tried = [judgement.convention for judgement in reading.judgements]
     usual = [c for c in tried if (c.rounding, c.centered) == (tried[0].rounding, tried[0].centered)]
-    varied = [word for word in ("choices", "header")
-              if len({getattr(c, f"{word}_exact") for c in usual}) > 1]  # fmt: skip
+    names = {"choices_exact": "the author's choices", "header_exact": "the header of Table A-1"}
+    varied = [name for key, name in names.items() if len({getattr(c, key) for c in usual}) > 1]
     scope = "three ways of rounding"
     scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
     scope += ", in both schemes" if claim.by_scheme else ""
-    tried_under = f"{'As printed, tried' if claim.readings and not reading.name else 'Tried'} under"
+    subject = "As printed, the" if claim.readings and not reading.name else "The"
     but = _exceptions(claim, reading)
-    return f"{tried_under} {scope}: the same{f', except: {but}' * bool(but)}."
+    return f"{subject} verdict is the same under {scope}{f', except: {but}' * bool(but)}."
 
 
 def _exceptions(claim: Claim, reading: Reading) -> str:
-    """The verdicts that some conventions change it to, and which; empty if none does."""
+    """Return the other verdicts and the conventions that give them; empty if there are none."""
     exceptions: dict[str, list[tuple[str, ...]]] = {}
     for judgement in reading.otherwise:
         convention = judgement.convention
@@ -108,10 +108,10 @@ def _exceptions(claim: Claim, reading: Reading) -> str:
         exceptions.setdefault(judgement.verdict, []).append(tuple(unusual))
     parts = []
     for verdict, conditions in exceptions.items():
-        # A condition that contains another says nothing more.
+        # A condition that includes a weaker one adds nothing.
         kept = dict.fromkeys(c for c in conditions if not any(set(o) < set(c) for o in conditions))
         parts.append(f"{verdict} if {', or if '.join(map(' and '.join, kept))}")
-    # What its inferred inputs rest on is rounded under every convention.
+    # The evidence for its inferred inputs is rounded to nearest under every convention.
     return ", and ".join(parts).format(cut_off="of this number alone " if claim.inferred else "")
 
 
@@ -122,14 +122,14 @@ _UNUSUAL = (
     ("header_exact", True, "the header of Table A-1 is exact"),
     ("centered", True, "the drag is taken at the middle velocity"),
 )
-"""What a convention does otherwise than the usual one."""
+"""The settings of a convention that differ from the usual one, in words."""
 
 
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
-    """What the verdict takes for granted beyond the printed text."""
+    """Return what the verdict assumes beyond the printed text."""
     assumed = [] if claim.assumes is None else [claim.assumes]
-    telling = claim.inferred if computed is None else judge.relevant(claim)
-    for name in telling:
+    relevant = claim.inferred if computed is None else judge.relevant(claim)
+    for name in relevant:
         inference = judge.inference(name)
         value = quantity(number(judge.value(name)), judge.ledger.unit(name))
         admitted = between(inference.inner.ends, 6, inward=True)
@@ -138,7 +138,7 @@ def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]
         if claim.id in inference.agreeing:
             cells = f"the {len(inference.agreeing)} cells that it is inferred from"
             assumed.append(f"{cells} show by themselves only that one value gives them all")
-    if claim.by_scheme and (telling or not claim.inferred):
+    if claim.by_scheme and (relevant or not claim.inferred):
         assumed.append("the drag at the velocity with which a row begins")
     values = [source.interval for source in judge.ledger.sources_of(claim.id)]
     if computed is not None:
@@ -147,9 +147,9 @@ def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]
 
 
 def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
-    """Which of an ambiguous number's digits were taken, and whether it matters.
+    """Say which digits of an ambiguous number are taken as significant, and whether it matters.
 
-    The number is compared with the values (SI): what is computed, or what public sources print.
+    The number is compared with the values (SI) that are computed or that public sources print.
     """
     printed = claim.printed
     unambiguous = claim.is_exact or claim.bound is not None
@@ -163,15 +163,15 @@ def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
 
 
 def sources(ledger: Ledger, claim: Claim, records: Sequence[SourceRecord]) -> str:
-    """Where a number comes from, and how it stands to the public sources for it."""
+    """Explain the verdict on a number that is compared with public sources."""
     agreeing, others = (
         "; ".join(f"{quantity(s.says, s.unit)} ({s.title})" for s in records if s.agrees is agrees)
         for agrees in (True, False)
     )
     if not agreeing:
         values = [source.value for source in ledger.sources_of(claim.id)]
-        between = " It lies between them." * (min(values) < claim.value < max(values))
-        return f"{origin(claim)} No public source at hand prints it: {others}.{between}"
+        middle = " It lies between them." * (min(values) < claim.value < max(values))
+        return f"{origin(claim)} No public source at hand prints it: {others}.{middle}"
     but = f", not with {others}" if others else ""
     return f"{origin(claim)} It agrees with {agreeing}{but}."
 
@@ -180,12 +180,12 @@ def sources(ledger: Ledger, claim: Claim, records: Sequence[SourceRecord]) -> st
 
 
 def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
-    """Why an equation has its verdict."""
+    """Explain the verdict on an equation."""
     premises = assessed.equation.follows_from
     failed = [check.says for check in assessed.checks if not check.holds]
     if not failed:
-        said = "; ".join(check.says for check in assessed.checks)
-        return f"From {premises}. Checked exactly: {said}."
+        checked = "; ".join(check.says for check in assessed.checks)
+        return f"From {premises}. Checked exactly: {checked}."
     text = f"From {premises}. This does not hold: {failed[0]}."
     if assessed.factor is not None:
         text += f" The printed side is {assessed.factor} times the derived one."
@@ -198,7 +198,7 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
 
 
 def constant_explanation(ledger: Ledger, claim: Claim, constant: ConstantRecord) -> str:
-    """Why a constant of an equation has its verdict."""
+    """Explain the verdict on a constant of an equation."""
     equation = ledger.equations[claim.within or ""]
     passes = f"the equation follows from {equation.follows_from}"
     if equation.kind == "taken over":
