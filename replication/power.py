@@ -1,8 +1,8 @@
-"""The power of the audit: misprints planted in copies of the ledger, and what it notices of them.
+"""The power of the audit: how many misprints it notices that are planted in copies of the ledger.
 
-A plant is one edit of one printed number or equation. It is visible if, with everything else as
-printed, some number, restatement or equation no longer agrees; that is found in doubles, by another
-route than the audit's proofs. Then the audit judges what depends on it.
+A planted misprint is one edit of one printed number or equation. It is visible if it leaves some
+number, repetition or equation in disagreement with the rest of the report; this is decided in
+doubles, independently of the audit's proofs. The audit then judges what depends on the edit.
 """
 
 import random
@@ -19,7 +19,7 @@ from replication.text import Table
 
 
 class Plant(NamedTuple):
-    """One misprint: the entry or equation, its true text, the planted one, the kind of edit."""
+    """A planted misprint: the claim or equation, its true and planted texts, the kind of edit."""
 
     entry: str
     true: str
@@ -28,10 +28,10 @@ class Plant(NamedTuple):
 
 
 class Counts(msgspec.Struct, kw_only=True):
-    """How many plants there were, how many of them are visible, and what became of these.
+    """How many misprints were planted, how many of them are visible, and what the audit noticed.
 
-    `detected`: something fails because of them; `accused_wrongly`: the first repair that the audit
-    names changes another entry; `repaired`: the true text is among the repairs that it names;
+    `detected`: something fails because of the misprint; `accused_wrongly`: the first repair that
+    the audit lists changes another entry; `repaired`: the true text is among the listed repairs;
     `repaired_first`: it is the first of them.
     """
 
@@ -44,13 +44,13 @@ class Counts(msgspec.Struct, kw_only=True):
     repaired_first: int = 0
 
     def add(self, more: "Counts") -> None:
-        """Count these, too."""
+        """Add other counts to these."""
         for name in Counts.__struct_fields__:
             setattr(self, name, getattr(self, name) + getattr(more, name))
 
 
 class Power(Counts, kw_only=True):
-    """The counts of a sample, whole and by kind of entry and of edit; what passed unnoticed."""
+    """The counts of a sample, in all, by kind of entry and by kind of edit; what is unnoticed."""
 
     seed: int
     by_kind: dict[str, Counts] = msgspec.field(default_factory=dict)
@@ -58,7 +58,7 @@ class Power(Counts, kw_only=True):
     unnoticed: list[dict[str, str]] = msgspec.field(default_factory=list)
 
     def table(self) -> Table:
-        """Rates in percent of what is visible: all, by kind of entry, by kind of edit."""
+        """Return rates in percent of the visible misprints: all, by kind of entry and of edit."""
         groups: dict[str, Counts] = {"all": self}
         for word, parts in (("in", self.by_kind), ("by", self.by_edit)):
             groups |= {f"{word} {name}": parts[name] for name in sorted(parts)}
@@ -66,17 +66,16 @@ class Power(Counts, kw_only=True):
             "noticed": "detected", "text named": "repaired", "named first": "repaired_first",
             "accused wrongly": "accused_wrongly",
         }  # fmt: skip
-        rows = [
-            (name, str(counts.planted), str(counts.visible), *(
-                f"{100 * getattr(counts, key) / counts.visible:.1f}" if counts.visible else "-"
-                for key in rates.values()))
-            for name, counts in groups.items()
-        ]  # fmt: skip
+        rows = []
+        for name, counts in groups.items():
+            shares = (getattr(counts, key) / (counts.visible or 1) for key in rates.values())
+            texts = (f"{100 * share:.1f}" if counts.visible else "-" for share in shares)
+            rows.append((name, str(counts.planted), str(counts.visible), *texts))
         return Table("Rates in percent", ("", "planted", "visible", *rates), rows)
 
 
 def measured() -> Power:
-    """What `coldspray power --json` last measured for this report; a test measures it again.
+    """Return the stored output of `coldspray power --json`; a slow test measures it again.
 
     >>> measured().planted
     500
@@ -86,26 +85,26 @@ def measured() -> Power:
 
 
 def plants(ledger: Ledger) -> Iterator[Plant]:
-    """Every plant: all edits of all printed numbers and equations."""
+    """Yield every possible misprint: all edits of all printed numbers and equations."""
     for name in (*ledger.claims, *ledger.equations):
         for text, kind in edits_of(ledger, name):
             yield Plant(name, ledger.printed_text(name), text, kind)
 
 
 def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
-    """Judge everything that depends on one plant, and compare with the report as printed.
+    """Judge everything that depends on a planted misprint, and compare with the true report.
 
-    Gives what fails only because of the plant, and the counts for this one.
+    Returns what fails only because of the misprint, and the counts for it.
     """
     ledger = truth.ledger.misprint(plant.entry, plant.text)
     audit = Audit(ledger, every_convention=False)
     claims, wrong = dependents(truth.ledger, plant.entry), set()
-    inside = ledger.equation_of(plant.entry)
-    for name in ledger.equations if inside else ():  # its own, and those derived from it
-        assessed = audit.equation(name, constants=False)
-        # One that fails in the report, too, must fail in another way.
-        if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
-            wrong.add(name)
+    if ledger.equation_of(plant.entry):  # its own equation may fail, or one derived from that
+        for name in ledger.equations:
+            assessed = audit.equation(name, constants=False)
+            # An equation that fails in the true report, too, must fail in another way.
+            if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
+                wrong.add(name)
     claims |= {claim.id for claim in ledger.claims.values() if claim.within in wrong}
     failing = wrong | {
         name
@@ -114,27 +113,27 @@ def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
         and not truth.assessment(truth.ledger.claims[name]).verdict.is_doubtful
     }
     repairs = audit.explainer.ranked(sorted(failing))
-    true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
-    visible = bool(failing) or _visible(truth, ledger, claims)
+    is_true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
+    visible = bool(failing) or _is_visible(truth, ledger, claims)
     return failing, Counts(
         planted=1,
         invisible=not visible,
         visible=visible,
         detected=bool(failing),
         accused_wrongly=any(repair.entry != plant.entry for repair in repairs[:1]),
-        repaired=any(true),
-        repaired_first=any(true[:1]),
+        repaired=any(is_true),
+        repaired_first=any(is_true[:1]),
     )
 
 
-def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
-    """Whether some claim no longer agrees, by doubles, at any value of the inferred inputs.
+def _is_visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
+    """Return whether some claim, computed in doubles, now disagrees at all inferred inputs' values.
 
-    The audit of the misprint has no part in this; the values are those that the report admits.
+    The values are those that the true report admits: the audit of the misprint has no part in this.
     """
     names = [INFERRED + name for name in truth.ledger.inferred]
     ends = {name: truth.judge.inference(name).inner.ends for name in names}
-    parts = 24  # for the density they are 1 kg/m^3 wide
+    parts = 24  # of 1 kg/m^3 each for the target density
     values = [{name: truth.ledger.value(name) for name in names}] + [
         {name: low + (high - low) * k / parts for name, (low, high) in ends.items()}
         for k in range(parts + 1)
@@ -148,9 +147,9 @@ def _visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
 def power(
     ledger: Ledger, sample: int, seed: int, progress: Callable[[Iterable[Plant]], Iterable[Plant]]
 ) -> Power:
-    """Plant a seeded sample of misprints, each in a copy of the ledger, and count what is noticed.
+    """Plant a random sample of misprints, one at a time, and count what the audit notices.
 
-    `progress` wraps the plants as they are worked through.
+    `progress` wraps the iteration over the misprints, such as in a progress bar.
     """
     everything = list(plants(ledger))
     chosen = random.Random(seed).sample(everything, min(sample, len(everything)))
@@ -158,9 +157,9 @@ def power(
     for plant in progress(chosen):
         failing, counts = trial(truth, plant)
         kind = ledger.claims[plant.entry].kind if plant.entry in ledger.claims else "equation"
-        result.add(counts)
-        result.by_kind.setdefault(kind, Counts()).add(counts)
-        result.by_edit.setdefault(plant.edit, Counts()).add(counts)
+        by_kind = result.by_kind.setdefault(kind, Counts())
+        for total in (result, by_kind, result.by_edit.setdefault(plant.edit, Counts())):
+            total.add(counts)
         if counts.visible and not failing:
             result.unnoticed.append(plant._asdict())
     return result

@@ -45,8 +45,11 @@ def approaches(results: Results) -> list[r.Approach]:
     """Return X/R [1] by every approach of the report, and by one without the target's inertia."""
     claims = results.ledger.claims
 
-    def computed(claim: str, reading: str = "") -> float:
-        return results.reading(claim, reading).computed
+    def approach(kind: str, name: str, claim: str = "", *computation: Any) -> r.Approach:
+        return r.Approach(
+            kind=kind, name=name, computed=_value(*computation) if computation else None,
+            claim=claim or None, printed=claims[claim].shown if claim else "",
+        )  # fmt: skip
 
     def in_sheet(beta: int) -> float:
         return sheet.run(case(results, beta)).normalized_depth
@@ -60,28 +63,24 @@ def approaches(results: Results) -> list[r.Approach]:
         energy = impact.particle_density * impact.velocity**2 / 2
         return crater_depth(energy / impact.target_resistance)
 
-    line = partial(depth_from_volume_ratio, results["volume-ratio-line"])
+    def computed(claim: str, reading: str = "") -> float:
+        return results.reading(claim, reading).computed
+
+    observed, line = "observed-depth-ratio", results["volume-ratio-line"]
     drawn, taken = (claims[name].text for name in ("volume-ratio-line", "volume-ratio"))
-    forms = (("Eq. 16 as printed", ""), ("Eqs. 14 and 15", DERIVED))
-    rows: list[tuple[str, str, Callable[[], float] | None, str]] = [
-        ("observed", f"CV/PV = {drawn}, the line in Figure 1", line, ""),
-        ("observed", f"CV/PV = {taken}, as taken for Eq. 4",
-         partial(computed, "observed-depth-ratio"), "observed-depth-ratio"),
-        *((kind, f"beta = {beta}", partial(ratio, beta), claim and f"{claim}-{beta}")
-          for kind, ratio, claim in (("sheet", in_sheet, "ratio-beta"), ("exact", exact, ""),
-                                     ("constant pressure", cratered, ""))
-          for beta in BETAS),
-        *(("Frank-Zook", f"{name}, {form}", partial(computed, claim, reading), claim)
-          for name, claim in (("armor", "frank-zook-rha"),
-                              ("stainless steel", "frank-zook-stainless"))
-          for form, reading in forms),
-        ("hydrocode", "CTH", None, "cth-ratio"),
-        ("hydrocode", "Autodyne", None, "autodyne-ratio"),
-    ]  # fmt: skip
+    targets = ("armor", "frank-zook-rha"), ("stainless steel", "frank-zook-stainless")
+    forms = ("Eq. 16 as printed", ""), ("Eqs. 14 and 15", DERIVED)
     return [
-        r.Approach(kind=kind, name=name, computed=compute and _value(compute), claim=claim or None,
-                   printed=claims[claim].shown if claim else "")
-        for kind, name, compute, claim in rows
+        approach("observed", f"CV/PV = {drawn}, the line in Figure 1", "",
+                 depth_from_volume_ratio, line),
+        approach("observed", f"CV/PV = {taken}, as taken for Eq. 4", observed, computed, observed),
+        *(approach("sheet", f"beta = {b}", f"ratio-beta-{b}", in_sheet, b) for b in BETAS),
+        *(approach("exact", f"beta = {b}", "", exact, b) for b in BETAS),
+        *(approach("constant pressure", f"beta = {b}", "", cratered, b) for b in BETAS),
+        *(approach("Frank-Zook", f"{target}, {form}", claim, computed, claim, reading)
+          for (target, claim), (form, reading) in product(targets, forms)),
+        approach("hydrocode", "CTH", "cth-ratio"),
+        approach("hydrocode", "Autodyne", "autodyne-ratio"),
     ]  # fmt: skip
 
 

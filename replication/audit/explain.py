@@ -366,20 +366,21 @@ def _shifted(text: str) -> Iterator[str]:
     """Yield the text with its exponent less one, plus one or negated, in as many characters."""
     for match in _EXPONENT.finditer(text):
         number = match["number"]
+        plus = "+" if match["lead"] in "Ee" and number[0] in "+-" else ""
         for exponent in (int(number) - 1, int(number) + 1, -int(number)):
-            sign = "+" if match["lead"] in "Ee" and number[0] in "+-" and exponent >= 0 else ""
-            width = len(number.lstrip("+-")) + len(sign or "-" * (exponent < 0))
-            shown = f"{sign}{exponent:0{width - len(sign)}d}"
-            yield text[: match.start("number")] + shown + text[match.end("number") :]
+            width = len(number.lstrip("+-")) + (exponent < 0 or plus == "+")
+            edited = f"{exponent:{plus}0{width}d}"
+            yield text[: match.start("number")] + edited + text[match.end("number") :]
 
 
 _WORDS = ("one two three four five", "third half", "one-sixth one-fifth", "twice thrice")
 
 
 def _words(text: str) -> Iterator[str]:
-    word = text.lower()
-    others = (w for words in map(str.split, _WORDS) if word in words for w in words if w != word)
-    return (word.capitalize() if text[0].isupper() else word for word in others)
+    """Yield the words that may be mistaken for a number word."""
+    for words in map(str.split, _WORDS):
+        if text.lower() in words:
+            yield from (word.capitalize() if text[0].isupper() else word for word in words)
 
 
 _EDITS: Mapping[str, Callable[[str], Iterable[str]]] = {

@@ -248,7 +248,7 @@ class Evidence:
         computed = replace(computed, row=int(self.value(row))) if row else computed
         return self.results.judge.modelled(computed, scheme=scheme)
 
-    def _verdicts(self, pattern: str, under: Mapping[str, object]) -> Iterator[str]:
+    def _verdicts(self, pattern: str, under: Mapping[Any, object]) -> Iterator[str]:
         """Yield the verdicts on the sources, equations and computed claims with such an id.
 
         `under` asks for the verdicts under all conventions with these values. What follows a point

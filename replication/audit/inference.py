@@ -5,6 +5,8 @@ from enum import Enum
 from fractions import Fraction
 from functools import cache, cached_property
 
+from msgspec.structs import replace
+
 from reference.arithmetic import Arithmetic, Function, Number
 from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, satisfying, solve
 from reference.ledger import INFERRED, Convention, Ledger
@@ -47,7 +49,7 @@ class Inference:
     ) -> None:
         self.ledger, self.name, self.centered, self.rounding = ledger, name, centered, rounding
         self.entry = ledger.inferred[name.removeprefix(INFERRED)]
-        self.rounded, self._admitted = cache(self._rounded), cache(self._bounds)
+        self.rounded, self.admitted = cache(self._rounded), cache(self._admitted)
         self.by_claim: dict[str, Solutions] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
@@ -73,19 +75,16 @@ class Inference:
             self.ledger, self.name, centered=self.centered, rounding=self.rounding, by_mass=True
         ).inner
 
-    def admitted(self, convention: Convention) -> Interval:
+    def _admitted(self, convention: Convention) -> Interval:
         """Return all values that may satisfy the evidence if a convention's inputs are rounded.
 
-        The printed mass and diameter count as evidence, too. The evidence is always taken as
-        rounded to nearest: if it were cut off, no value would satisfy it.
+        The printed mass and diameter count as evidence, too. Everything is taken as rounded to
+        nearest: if it were cut off, no value would satisfy the evidence.
         """
         if (convention.choices_exact and convention.header_exact) or not self.agreeing:
             return self.outer
-        return self._admitted(convention.choices_exact, convention.header_exact)
-
-    def _bounds(self, choices_exact: bool, header_exact: bool) -> Interval:
-        convention = Convention(choices_exact=choices_exact, header_exact=header_exact)
-        constraints, box = self.joint(convention, {self.name: self.entry.search})
+        to_nearest = replace(convention, rounding=Rounding.AWAY)
+        constraints, box = self.joint(to_nearest, {self.name: self.entry.search})
         return Interval(*bounds(constraints, self.name, box))
 
     def _rounded(self, name: str, convention: Convention) -> Ends:

@@ -74,8 +74,8 @@ def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
             titles = " and ".join(map(ledger.title, claim.inferred))
             return (
                 f"Proven for inputs that print like the report's: its range is {proven}, "
-                "part of which rounds to the printed number, but no inputs that give this number also give "
-                f"the numbers from which the {titles} is inferred."
+                "part of which rounds to the printed number, but no inputs that give this number "
+                f"also give the numbers from which the {titles} is inferred."
             )
         case Verdict.NOT_REPRODUCED:
             return f"Proven for all inputs that print like the report's: {proven}, none inside."
