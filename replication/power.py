@@ -97,21 +97,10 @@ def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
     Returns what fails only because of the misprint, and the counts for it.
     """
     ledger = truth.ledger.misprint(plant.entry, plant.text)
-    audit = Audit(ledger, every_convention=False)
-    claims, wrong = dependents(truth.ledger, plant.entry), set()
-    if ledger.equation_of(plant.entry):  # its own equation may fail, or one derived from that
-        for name in ledger.equations:
-            assessed = audit.equation(name, constants=False)
-            # An equation that fails in the true report, too, must fail in another way.
-            if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
-                wrong.add(name)
-    claims |= {claim.id for claim in ledger.claims.values() if claim.within in wrong}
-    failing = wrong | {
-        name
-        for name in claims
-        if audit.assessment(ledger.claims[name]).verdict.is_doubtful
-        and not truth.assessment(truth.ledger.claims[name]).verdict.is_doubtful
-    }
+    audit, claims = Audit(ledger, every_convention=False), dependents(truth.ledger, plant.entry)
+    # Its own equation may fail, or one derived from that.
+    equations = ledger.equations if ledger.equation_of(plant.entry) else ()
+    failing = new_failures(truth, audit, claims, equations)
     repairs = audit.explainer.ranked(sorted(failing))
     is_true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
     visible = bool(failing) or _is_visible(truth, ledger, claims)
@@ -124,6 +113,28 @@ def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
         repaired=any(is_true),
         repaired_first=any(is_true[:1]),
     )
+
+
+def new_failures(
+    truth: Audit, audit: Audit, claims: Iterable[str], equations: Iterable[str]
+) -> set[str]:
+    """Return which of these entries fail in an audit of a misprint and do not fail in the truth.
+
+    Constants of a failing equation are judged with it.
+    """
+    wrong = set()
+    for name in equations:
+        assessed = audit.equation(name, constants=False)
+        # An equation that fails in the true report, too, must fail in another way.
+        if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
+            wrong.add(name)
+    constants = {claim.id for claim in audit.ledger.claims.values() if claim.within in wrong}
+    return wrong | {
+        name
+        for name in constants.union(claims)
+        if audit.assessment(audit.ledger.claims[name]).verdict.is_doubtful
+        and not truth.assessment(truth.ledger.claims[name]).verdict.is_doubtful
+    }
 
 
 def _is_visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:

@@ -141,11 +141,12 @@ def _sensitivity(results: Results, beta: int) -> r.Sensitivity:
     )
 
     def effect(name: str, low: float, high: float, why: str) -> r.Effect:
-        cases = [replace(impact, **{name: float(end)}) for end in (low, high)]
-        depths = [depth.final_depth(**case.motion) for case in cases]
-        ratios = [x / case.radius for x, case in zip(depths, cases, strict=True)]
-        ends = {"low": float(low), "high": float(high)}
-        return r.Effect(input=name, **ends, depths=depths, ratios=ratios, why=why)
+        impacts = [replace(impact, **{name: float(end)}) for end in (low, high)]
+        return r.Effect(
+            input=name, low=float(low), high=float(high), why=why,
+            depths=[depth.final_depth(**impact.motion) for impact in impacts],
+            ratios=[exact_ratio(impact) for impact in impacts],
+        )  # fmt: skip
 
     return r.Sensitivity(
         beta=float(beta),

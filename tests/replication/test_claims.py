@@ -1,4 +1,4 @@
-"""One test for every number that the report prints, by its id; and what is found in them."""
+"""One test for every number that the report prints, by its id; and the findings."""
 
 import json
 from fractions import Fraction as F
@@ -18,7 +18,7 @@ from replication.audit.record import FindingRecord, Record
 
 LEDGER = load()
 
-# What is not plainly reproduced, with the value that the report's words give.
+# The numbers that are not reproduced, with the values that the report's words give
 
 NOT_REPRODUCED = {
     "frank-zook-rha": 0.127273,  # Eq. 16 as printed; 0.254546 from Eqs. 14 and 15
@@ -26,7 +26,7 @@ NOT_REPRODUCED = {
     "eq16-denominator": 1,  # for X/R; 2 belongs to X/D
 }
 SOURCES = {
-    # What the report derives from nothing, and whether a public source agrees.
+    # The numbers that the report does not derive, and whether a public source agrees
     **dict.fromkeys(("yield-strength", "elastic-modulus", "strength-bulk", "copper-yield"), True),
     **dict.fromkeys(("autodyne-copper-yield", "a1-density"), True),
     "autodyne-steel-yield": False,
@@ -35,9 +35,9 @@ SHOWN = {
     "goodier-q", "flow-stress", "depth-beta-3-beta", "depth-beta-5-beta", "a-step",
     "a1-initial-velocity",
 }  # fmt: skip
-"""Choices that are shown by the digits of what is computed from them."""
+"""Choices of the author that the numbers computed from them confirm."""
 TAKEN_OVER = {"eq1-power", "eq8-multiple", "eq10-factor"}
-"""Constants of equations that the report does not derive and that no check settles."""
+"""Constants that no check settles, in equations that the report does not derive."""
 
 
 def expected(claim: Claim) -> str:
@@ -55,7 +55,7 @@ def expected(claim: Claim) -> str:
 
 
 SHEET_ROUNDING = 1e-12
-"""131 to 178 rows of a dozen roundings of 1.1e-16 each, amplified less than ten times."""
+"""131 to 178 rows with a dozen roundings of 1.1e-16 each, amplified less than ten times."""
 FORMULA_ROUNDING = 2e-15
 """Fewer than ten roundings of 1.1e-16 each."""
 
@@ -75,9 +75,9 @@ def test_claim(claim: Claim, record: Record) -> None:
         bound = SHEET_ROUNDING if claim.by_scheme else FORMULA_ROUNDING
         assert judged.computed == pytest.approx(float(str(judged.reference)), rel=bound, abs=0)
         low, high = (F(str(end)) for end in judged.enclosure_exact)
-        slack = abs(F(judged.computed)) / 10**12  # a double is some roundings beside the range
+        slack = abs(F(judged.computed)) / 10**12  # rounding may place a double outside the range
         assert low - slack <= F(judged.computed) <= high + slack
-        if judged.computed not in (0, 2 / 3):  # exact text, of which a double is a rounding
+        if judged.computed not in (0, 2 / 3):  # the text is exact, the double is rounded
             inside = claim.interval().contains(F(judged.computed))
             assert inside == (judged.verdict == "reproduced")
         if claim.id in NOT_REPRODUCED:
@@ -124,7 +124,7 @@ MISPRINTS = pairs("replication/kept.txt", "Misprints, and the findings that rest
 
 @cache
 def with_misprints() -> dict[str, FindingRecord]:
-    """The findings on a report with all of these misprints, in one audit."""
+    """The findings on a report with all of these misprints at once."""
     ledger: Ledger = LEDGER
     for misprint, _ in MISPRINTS:
         ledger = ledger.misprint(*misprint.split(": "))

@@ -1,4 +1,4 @@
-"""Misprints: those in an equation are seen, those in a number explained, planted ones measured."""
+"""Misprints: in equations they are noticed, in numbers explained; the rate is measured."""
 
 import random
 import re
@@ -19,7 +19,7 @@ from replication.audit.explain import (
 )
 from replication.audit.record import Verdict
 from replication.audit.verdict import Judge, assess_equation, follows
-from replication.power import Plant, measured, plants, power, trial
+from replication.power import Plant, measured, new_failures, plants, power, trial
 
 LEDGER = load()
 PAIR = ("frank-zook-rha", "frank-zook-stainless")
@@ -35,7 +35,7 @@ def test_edits_of_an_equation() -> None:
     assert set(result.values()) == set(EQUATION_EDITS)
     sides = {text: LEDGER.misprint("eq16", text).sides["eq16"] for text in result}
     same = {text for text in result if sides[text] == LEDGER.sides["eq16"]}
-    for text in same:  # only where the edit leaves no equation
+    for text in same:  # an edit that leaves no equation has no effect
         with pytest.raises(EquationError):
             LEDGER.read(text)
     assert len(same) == 2
@@ -51,8 +51,8 @@ def test_the_original_mends_what_a_misprint_spoils(question: str, answer: str) -
     assert set(repair.failing) <= {"eq16", *PAIR, "eq16-denominator"}
     left = [len(r.failing) for r in result if not r.reading]
     assert left == sorted(left)
-    told = [f"{r.entry}: {r.text}" + f" if {r.reading}" * bool(r.reading) for r in result]
-    assert "; ".join(told) == answer
+    texts = [f"{r.entry}: {r.text}" + f" if {r.reading}" * bool(r.reading) for r in result]
+    assert "; ".join(texts) == answer
 
 
 def test_a_report_without_its_faults_has_none_and_one_fault_is_found_as_the_culprit() -> None:
@@ -77,20 +77,21 @@ def test_evidence_that_a_misprint_takes_away_leaves_its_findings_open() -> None:
     assert {finding.id for finding in findings if not finding.holds} >= {"equation-16"}
 
 
-# A misprint in an equation is seen, whatever it is; what is not seen is listed and judged
+# The checks of an equation notice all its misprints but those listed here
 
 ASSUMED = {f"inferred:{name}": entry.nominal for name, entry in LEDGER.inferred.items()}
 
 
 def state(ledger: Ledger, name: str) -> tuple[Verdict, *tuple[object, ...]]:
+    """The verdict on an equation, its factor, and which of its checks hold."""
     assessed = assess_equation(ledger, name, constants=False)
     return assessed.verdict, assessed.factor, tuple(check.holds for check in assessed.checks)
 
 
-# The edits that no check of their equation sees. All three equations are taken over from literature
-# that the report does not derive: the exponent of Eq. 1, Goodier's q and (2a), and Walker and
-# Anderson's 7/3 are theirs to say. None of the edits means the same as what is printed.
-UNSEEN = {
+# The edits that no check of their equation notices. The report takes these three equations from
+# the literature, so nothing in it determines the exponent of Eq. 1, Goodier's q and (2a), and
+# Walker and Anderson's 7/3. Each edit changes the meaning of its equation.
+UNNOTICED = {
     "eq1": ["V_p = V(m_o/m)^{2/1}"],
     "eq8": [rf"F_r = {q} (2a)^n" for q in (r"\Sigma", "Y_p", "R_t", "Y_t", "E_t")]
     + [rf"F_r = q ({r})^n" for r in ("a", "2X", "2x", "2R", "2D", "2L")],
@@ -99,30 +100,31 @@ UNSEEN = {
 
 
 @pytest.mark.parametrize("name", LEDGER.equations)
-def test_the_checks_of_an_equation_see_every_other_edit(name: str) -> None:
+def test_the_checks_of_an_equation_notice_every_other_edit(name: str) -> None:
     edits = {edit for edit, _ in equation_edits(LEDGER, name)}
     assert len(edits) >= 11
     printed = state(LEDGER, name)
-    unseen = set()
+    unnoticed = set()
     for edit in edits:
         changed = LEDGER.misprint(name, edit)
         edited = state(changed, name)
-        # What remainders refuse quickly, polynomials refuse, and the other way round.
         assert follows(changed, name) == (not edited[0].is_failure)
         if edited == printed:
-            unseen.add(edit)
-    assert unseen == set(UNSEEN.get(name, []))
+            unnoticed.add(edit)
+    assert unnoticed == set(UNNOTICED.get(name, []))
 
 
 @pytest.mark.parametrize(
-    ("name", "seen"), [("eq8", "goodier-beta"), ("eq10", "walker-anderson-beta"), ("eq1", None)]
+    ("name", "computed"), [("eq8", "goodier-beta"), ("eq10", "walker-anderson-beta"), ("eq1", None)]
 )
-def test_what_is_computed_with_an_equation_sees_the_rest(name: str, seen: str | None) -> None:
-    """With Eq. 1 none is: only the finding on it has its power as evidence."""
+def test_a_claim_computed_with_the_equation_fails_by_the_rest(
+    name: str, computed: str | None
+) -> None:
+    """No claim is computed with Eq. 1: its power is evidence of a finding only."""
     as_printed = disagreeing(LEDGER, LEDGER.claims, ASSUMED)
-    for edit in UNSEEN[name]:
+    for edit in UNNOTICED[name]:
         failing = disagreeing(LEDGER.misprint(name, edit), LEDGER.claims, ASSUMED)
-        assert seen in failing if seen else failing == as_printed, edit
+        assert computed in failing if computed else failing == as_printed, edit
 
 
 EXPECTED = {
@@ -139,12 +141,12 @@ def test_equation(name: str) -> None:
     assert assessed.verdict == EXPECTED.get(name, "reproduced")
     assert assessed.factor == (F(1, 2) if name == "eq16" else None)
     assert set(assessed.constants) == set(LEDGER.constants_of(name))
-    said = [check.says for check in assessed.checks]
-    assert len(set(said)) == len(said)
-    assert said or name == "eq8"
+    checks = [check.says for check in assessed.checks]
+    assert len(set(checks)) == len(checks)
+    assert checks or name == "eq8"
 
 
-# What is noticed of planted misprints, whose rates of a small sample stand in `said.txt`
+# Planted misprints; `said.txt` has the rates of a small sample
 
 EVERYTHING = list(plants(LEDGER))
 TRUTH = Audit(LEDGER, every_convention=False)
@@ -152,7 +154,7 @@ TRUTH = Audit(LEDGER, every_convention=False)
 
 def test_every_number_and_every_equation_gets_misprints() -> None:
     numbers = {claim.id for claim in LEDGER.claims.values() if claim.printed is not None}
-    without = {"strength-multiple"}  # "several times" has no other word in its place
+    without = {"strength-multiple"}  # no other word is tried for "several times"
     assert {p.entry for p in EVERYTHING} == (numbers | set(LEDGER.equations)) - without
 
 
@@ -172,20 +174,8 @@ def test_the_rates_on_the_page_are_measured_again() -> None:
 
 @pytest.mark.slow
 def test_judging_what_depends_on_a_plant_is_judging_everything() -> None:
-    """On 50 plants: no claim or equation elsewhere fails because of one."""
-    for first in random.Random(3).sample(EVERYTHING, 50):
-        failing, _ = trial(TRUTH, first)
-        audit = Audit(LEDGER.misprint(first.entry, first.text), every_convention=False)
-        everything = {
-            name
-            for name, claim in audit.ledger.claims.items()
-            if audit.assessment(claim).verdict.is_doubtful
-            and not TRUTH.assessment(LEDGER.claims[name]).verdict.is_doubtful
-        }
-        everything |= {
-            name
-            for name in audit.ledger.equations
-            if audit.equation(name).verdict.is_failure
-            and audit.equation(name).checks != TRUTH.equation(name).checks
-        }
-        assert everything == failing, first
+    """Of 50 plants none makes a claim or an equation fail that does not depend on it."""
+    for plant in random.Random(3).sample(EVERYTHING, 50):
+        failing, _ = trial(TRUTH, plant)
+        audit = Audit(LEDGER.misprint(plant.entry, plant.text), every_convention=False)
+        assert new_failures(TRUTH, audit, LEDGER.claims, LEDGER.equations) == failing, plant

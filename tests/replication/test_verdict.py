@@ -1,9 +1,10 @@
-"""A verdict names its conventions and has witnesses; the target density is what the table tells."""
+"""Witnesses of verdicts, what the evidence says of the target density, and misprints judged."""
 
 from collections.abc import Iterator
 from fractions import Fraction as F
 from functools import cache
 from itertools import pairwise
+from math import prod
 
 import pytest
 from kept import calls
@@ -22,6 +23,7 @@ JUDGE = Judge(LEDGER)
 
 
 def witnesses() -> Iterator[tuple[str, str, Judgement]]:
+    """Every judgement with a witness, with its claim and its reading."""
     for claim in LEDGER.claims.values():
         if claim.computation is not None and not claim.computation.restates:
             for reading in JUDGE.assess(claim).readings:
@@ -39,32 +41,31 @@ def test_a_witness_prints_like_the_report_and_gives_the_number() -> None:
         for entry in claim.stated:
             assert LEDGER.claims[entry].as_input(convention).contains(witness[entry]), (name, entry)
         computation = claim.computations[reading]
-        inputs = {}
-        for key, entries in claim.inputs.items():
-            inputs[key] = 1.0
-            for entry in entries:
-                inputs[key] *= float(witness[entry])
+        inputs = {
+            key: prod(float(witness[entry]) for entry in entries)
+            for key, entries in claim.inputs.items()
+        }
         settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
         if computation.by_scheme:
             settings["scheme"] = "centered" if convention.centered else "published"
         value = F(replica(computation.name, inputs, **settings))
-        margin = abs(value) * F(1, 10**12)  # a double may fall a rounding short of an end
+        margin = abs(value) * F(1, 10**12)  # rounding may place a double just outside an end
         target = claim.target(convention.rounding)
         assert not target.excludes(value - margin, value + margin), name
         for entry in claim.inferred:
             inference = JUDGE.inference(entry, centered=convention.centered)
             constraints, box = inference.joint(convention, {entry: (witness[entry],) * 2})
-            there = {name: (witness.get(name, low), witness.get(name, high))
-                     for name, (low, high) in box.items()}  # fmt: skip
-            assert satisfying(constraints, there)[0] is True, name
+            at_witness = {name: (witness.get(name, low), witness.get(name, high))
+                          for name, (low, high) in box.items()}  # fmt: skip
+            assert satisfying(constraints, at_witness)[0] is True, name
 
 
 def test_a_number_of_unclear_digits_says_which_were_taken(record: Record) -> None:
-    (said,) = [text for text in record.claim("a1-velocity-initial-1").assumes if "digits" in text]
-    assert said == "all digits of 500 taken as significant; the verdict does not depend on that"
+    (taken,) = [text for text in record.claim("a1-velocity-initial-1").assumes if "digits" in text]
+    assert taken == "all digits of 500 taken as significant; the verdict does not depend on that"
 
 
-# What the table tells of the target density, and what it does not; a bad witness is named
+# The target densities that Table A-1 admits
 
 DENSITY = "inferred:target-density"
 
@@ -74,7 +75,7 @@ def inference(centered: bool = False) -> Inference:
     return Inference(LEDGER, DENSITY, centered=centered)
 
 
-def test_what_more_is_known_narrows_what_the_table_admits_and_rounding_widens_it() -> None:
+def test_rounded_inputs_widen_the_range_of_densities_that_table_a_1_admits() -> None:
     for own in (inference(), inference(centered=True)):
         assert own.odd == ()
         (low, high), (outer_low, outer_high) = own.inner.ends, own.outer.ends
@@ -90,14 +91,14 @@ def test_what_more_is_known_narrows_what_the_table_admits_and_rounding_widens_it
 
 
 def serves(convention: Convention, point: dict[str, F]) -> bool | None:
-    """Whether the evidence can hold at a point, other inputs within their rounding."""
+    """Whether the evidence can hold at a point, with the other inputs within their rounding."""
     density = point.pop(DENSITY)
     constraints, box = inference().joint(convention, {DENSITY: (density, density)})
     return satisfying(constraints, {**box, **{name: (x, x) for name, x in point.items()}})[0]
 
 
 def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_range() -> None:
-    """Some density gives 2.17E+09 in row 4, but not the other cells."""
+    """Some density gives 2.17E+09 in row 4, but it does not give the other cells."""
     ledger = LEDGER.misprint("a1-deceleration-4", "2.17E+09")
     judge, claim = Judge(ledger, every_convention=False), ledger.claims["a1-deceleration-4"]
     assessed = judge.assess(claim)
@@ -105,15 +106,15 @@ def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_r
     assert judgement.verdict is Verdict.NOT_REPRODUCED
     assert judgement.against_evidence
     assert not claim.interval().excludes(*judgement.ends)
-    said = wording.explanation(judge, claim, assessed)
-    assert "no inputs that give this number also give the numbers" in said
-    assert "all of it" not in said
-    assert "none of it" not in said
+    explanation = wording.explanation(judge, claim, assessed)
+    assert "no inputs that give this number also give the numbers" in explanation
+    assert "all of it" not in explanation
+    assert "none of it" not in explanation
 
 
 @cache
 def judge(name: str, text: str) -> Judge:
-    """What judges the report with a misprint."""
+    """A judge of the report with a misprint."""
     return Judge(LEDGER.misprint(name, text))
 
 
@@ -122,7 +123,7 @@ def judged(name: str, text: str, claim: str) -> Assessment:
 
 
 def slips(name: str, text: str) -> list[SlipRecord]:
-    """Other readings of an equation, tried for a claim that is misprinted."""
+    """The slips that are tried as explanations of a misprinted claim."""
     return Explainer(judge(name, text)).slips(judge(name, text).ledger.claims[name])
 
 
