@@ -15,6 +15,8 @@ from typing import Any
 
 
 class _Callable(ModuleType):
+    """The package as a function, which pickle finds by its name like any other module."""
+
     def __call__(self, *arguments: Any, **options: Any) -> Any:
         from replication.audit.audit import audit
 

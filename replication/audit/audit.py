@@ -152,8 +152,8 @@ class Audit(Results):
         wrong = self.assessment(claim).verdict is Verdict.NOT_REPRODUCED
         if computed is None or not wrong or not premises:
             return nothing
-        *_, premise = premises.values()
-        left, right = self.ledger.sides[premise.equation]
+        *_, premise = premises.values()  # the last may give the value itself
+        *_, right = sides = self.ledger.sides[premise.equation]
         values = {"D": Fraction(1)}  # the ledger gives L in diameters
         for symbol, text in premise.put.items():
             if len(names := claim.inputs.get(text, ())) == 1:
@@ -172,7 +172,7 @@ class Audit(Results):
         steps = [f"{with_numbers(f)} = {text}" for f, text in zip(factors, texts, strict=True)]
         if len(steps) > 1:
             steps.append(f"{' · '.join(texts)} = {result}")
-        in_symbols = (rendered(side, self._symbols) for side in (left, right))
+        in_symbols = (rendered(side, self._symbols) for side in sides)
         return {
             "formula": " = ".join((*in_symbols, with_numbers(right), result)),
             "mathml": self._mathml(premise.equation),

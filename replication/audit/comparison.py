@@ -33,7 +33,7 @@ def _value(compute: Callable[..., float], *arguments: Any) -> float | None:
 
 
 def _parts(compute: Callable[..., _Part], rows: Iterable[tuple[Any, ...]]) -> list[_Part]:
-    """Return what is computed from each row of arguments; leave out what cannot be computed."""
+    """Return the result for each row of arguments, leaving out rows that give none."""
     parts = []
     for row in rows:
         with suppress(ArithmeticError, InputError):

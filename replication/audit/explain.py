@@ -1,7 +1,7 @@
 """Possible explanations of a number that does not follow from the report.
 
-Nothing of this is asserted: inputs, misprints and slips are tried, and those that would give the
-number are listed.
+Other inputs, misprints and slips of the author's are tried, and those that would give the number
+are listed. The audit asserts none of them.
 """
 
 import re
@@ -30,7 +30,7 @@ Values = Mapping[str, Fraction]
 
 
 def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> bool:
-    """Return whether a claim agrees with its computation, some entries changed."""
+    """Return whether a claim agrees with its computation, in doubles, some entries changed."""
     if claim.computations[reading].restates:
         return restates(ledger, claim)
     target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
@@ -219,11 +219,12 @@ class Explainer:
     def _failing(self, entry: str, changed: Ledger) -> set[str]:
         """Return all claims and equations that fail once an entry is changed."""
         touched, within = dependents(self.ledger, entry), self.ledger.equation_of(entry)
-        tries = (disagreeing(changed, touched, values) for values in self._alternatives)
-        failing = min(tries, key=len)
+        options = (disagreeing(changed, touched, values) for values in self._alternatives)
+        failing = min(options, key=len)
         if within is not None:
             touched.add(within)
-            failing |= set() if follows(changed, within) else {within}
+            if not follows(changed, within):
+                failing.add(within)
         return (self._failing_now - touched) | failing
 
     @cached_property
@@ -247,9 +248,7 @@ class Explainer:
         if not names:
             return []
         quickest = min(names, key=self._cost)
-        suspects = [self._suspects(name) for name in names]
-        common = set.intersection(*suspects) or suspects[0]
-        repairs = self._repairs(quickest, common & self._suspects(quickest))
+        repairs = self._repairs(quickest, set.intersection(*map(self._suspects, names)))
         return repairs if repairs or len(names) == 1 else self.ranked([quickest])
 
     def _cost(self, name: str) -> tuple[int, str]:
@@ -363,7 +362,7 @@ def _swapped(text: str) -> Iterator[str]:
 
 
 def _shifted(text: str) -> Iterator[str]:
-    """Yield the text with its exponent less one, plus one or negated, in as many characters."""
+    """Yield the text with its exponent decreased or increased by one, or negated."""
     for match in _EXPONENT.finditer(text):
         number = match["number"]
         plus = "+" if match["lead"] in "Ee" and number[0] in "+-" else ""
@@ -383,22 +382,25 @@ def _words(text: str) -> Iterator[str]:
             yield from (word.capitalize() if text[0].isupper() else word for word in words)
 
 
+def _replaced(text: str, options: Callable[[str], Iterable[str]]) -> Iterator[str]:
+    """Yield the text with one digit of the mantissa replaced by each of its options."""
+    for k in _digits(text):
+        for option in options(text[k]):
+            yield text[:k] + option + text[k + 1 :]
+
+
 _EDITS: Mapping[str, Callable[[str], Iterable[str]]] = {
-    "digit dropped": lambda text: (text[:k] + text[k + 1 :] for k in _digits(text)),
+    "digit dropped": lambda text: _replaced(text, lambda _: [""]),
     "digits swapped": _swapped,
     "decimal point moved": lambda text: (
         re.sub(r"(?<=.)(\d)\.", r".\1", text), re.sub(r"\.(\d)", r"\1.", text),
     ),
     "exponent changed": _shifted,
     "other word": _words,
-    "digit doubled": lambda text: (text[:k] + text[k] + text[k:] for k in _digits(text)),
-    "digit changed": lambda text: (
-        text[:k] + digit + text[k + 1 :] for k in _digits(text) for digit in digits
-    ),
-    "digit inserted": lambda text: (
-        text[:end] + digit + text[end:]
-        for end in sorted({end for k in _digits(text) for end in (k, k + 1)})
-        for digit in digits
+    "digit doubled": lambda text: _replaced(text, lambda old: [old + old]),
+    "digit changed": lambda text: _replaced(text, lambda _: digits),
+    "digit inserted": lambda text: _replaced(
+        text, lambda old: [new + old for new in digits] + [old + new for new in digits]
     ),
 }  # fmt: skip
 NUMBER_EDITS = tuple(_EDITS)

@@ -38,7 +38,7 @@ DERIVED = "derived from Eqs. 14 and 15"
 """The name of the reading of Eq. 16 that does not take it as printed."""
 
 _READINGS = {"computed": "", "derived": DERIVED}
-"""The readings of a claim, by what stands for them after its id in findings.toml."""
+"""The readings of a claim, by the words for them in findings.toml."""
 
 _CONVENTIONS = {
     "exact": Convention(header_exact=True),
@@ -178,7 +178,10 @@ class Evidence:
         return _BESIDES[f"{self.finding.id}: {name}"](self)
 
     def _named(self, entry: str, *parts: str) -> Value:
-        """Return the value (SI) of an entry or a source, or what the parts of a name ask of it."""
+        """Return the value (SI) of a name in a formula that is an id, perhaps with parts after it.
+
+        The head of findings.toml lists what the parts mean. Raises KeyError for others.
+        """
         results, ledger = self.results, self.results.ledger
         match parts:
             case ():
@@ -243,16 +246,16 @@ class Evidence:
         return evaluate(node, ar or _Exact(), {name: value(name) for name in names})
 
     def _run(self, claim: str, row: str = "", scheme: str = "published", **inputs: str) -> float:
-        """Return what the sheet gives for a claim in another row or scheme, or of other inputs."""
+        """Return what the sheet gives for a claim in another row or scheme or with other inputs."""
         computed = self.results.ledger.claims[claim].resting_on(**inputs)
         computed = replace(computed, row=int(self.value(row))) if row else computed
         return self.results.judge.modelled(computed, scheme=scheme)
 
     def _verdicts(self, pattern: str, under: Mapping[Any, object]) -> Iterator[str]:
-        """Yield the verdicts on the sources, equations and computed claims with such an id.
+        """Yield the verdicts on the source, the equation and the computed claims with such an id.
 
-        `under` asks for the verdicts under all conventions with these values. What follows a point
-        in the pattern asks for those of one reading.
+        With `under` they are those under every convention that has these values; with a reading
+        after a point in the pattern, those by this reading.
         """
         results, ledger = self.results, self.results.ledger
         if pattern in ledger.sources:
