@@ -33,7 +33,7 @@ def audit(ledger: Ledger | None = None) -> r.Record:
 
 
 class Audit(Results):
-    """The audit of one ledger."""
+    """The audit of one ledger: turns its results into records."""
 
     def record(self) -> r.Record:
         """Return the finished audit as data."""
@@ -44,11 +44,11 @@ class Audit(Results):
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
         counts = self._counts(claims, equations)
-        fail = "1 number fails." if counts.failing == 1 else f"{counts.failing} numbers fail."
+        count = "1 number fails." if counts.failing == 1 else f"{counts.failing} numbers fail."
         inferred = product(self.ledger.inferred, sheet.SCHEMES)
         return r.Record(
             schema=r.SCHEMA,
-            headline=headline.statement if headline.holds else fail,
+            headline=headline.statement if headline.holds else count,
             report=self.ledger.report,
             summary={v.value: sum(claim.verdict == v for claim in claims) for v in Verdict},
             counts=counts,

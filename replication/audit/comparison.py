@@ -141,11 +141,11 @@ def _sensitivity(results: Results, beta: int) -> r.Sensitivity:
     )
 
     def effect(name: str, low: float, high: float, why: str) -> r.Effect:
-        impacts = [replace(impact, **{name: float(end)}) for end in (low, high)]
+        at_ends = [replace(impact, **{name: float(end)}) for end in (low, high)]
         return r.Effect(
             input=name, low=float(low), high=float(high), why=why,
-            depths=[depth.final_depth(**impact.motion) for impact in impacts],
-            ratios=[exact_ratio(impact) for impact in impacts],
+            depths=[depth.final_depth(**changed.motion) for changed in at_ends],
+            ratios=[exact_ratio(changed) for changed in at_ends],
         )  # fmt: skip
 
     return r.Sensitivity(
@@ -170,21 +170,21 @@ def scatter(results: Results) -> list[r.Scatter]:
     that the report states, taken literally as the mean absolute deviation.
     """
     size, deviation = results["mean-diameter"], results["diameter-deviation"]
-    mean = NormalDist().pdf(0) * 2  # mean absolute over standard deviation
+    mean_to_standard = NormalDist().pdf(0) * 2  # the ratio of the two deviations
     z = NormalDist().inv_cdf
 
     def law(name: str, power: float | None) -> r.Scatter:
         impact = case(results, 5)
         if power is None:
-            spread = results["velocity-deviation"] / mean
+            spread = results["velocity-deviation"] / mean_to_standard
             velocities = [impact.velocity + spread * z(share) for share in SHARES]
         else:
             spread = power * (deviation / size) * impact.velocity
             sizes = (size + deviation * z(1 - share) for share in SHARES)
             velocities = [impact.velocity * (size / diameter) ** power for diameter in sizes]
         return r.Scatter(
-            law=name, standard_deviation=spread, mean_deviation=spread * mean, shares=list(SHARES),
-            velocities=velocities,
+            law=name, standard_deviation=spread, mean_deviation=spread * mean_to_standard,
+            shares=list(SHARES), velocities=velocities,
             ratios=[exact_ratio(replace(impact, velocity=v)) for v in velocities],
         )  # fmt: skip
 
@@ -200,7 +200,7 @@ def scatter(results: Results) -> list[r.Scatter]:
 
 
 def curves(results: Results) -> list[r.Curve]:
-    """Return depth against time, as in Figure 3: the sheet's rows, and the exact motion to rest."""
+    """Return depth against time, as in Figure 3: the sheet's rows and the exact motion to rest."""
 
     def curve(beta: int) -> r.Curve:
         impact = case(results, beta)

@@ -145,7 +145,10 @@ class Evidence:
         return float(self.value(name))
 
     def _value(self, name: str) -> Value:
-        """Return the value of a piece of evidence, computed as its keys say, or of another name."""
+        """Return the value of a piece of evidence, computed as its keys say, or of another name.
+
+        Where a box of inputs is given (`over`), it is the proven least value.
+        """
         piece = self.finding.evidence.get(name)
         if name in self.formulas:
             value: Fraction | float = self.calculated(self.formulas[name])
