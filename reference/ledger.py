@@ -440,8 +440,9 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         place = self.equations[name].place
         text = self.text[place.start : place.end]
         for constant in reversed(self.constants_of(name)):  # the last one first: it moves no other
-            claim, value = self.claims[constant], constants.get(constant)
-            own = claim.text if value is None else r"\frac{%d}{%d}" % value.as_integer_ratio()
+            claim, own = self.claims[constant], self.claims[constant].text
+            if (value := constants.get(constant)) is not None:
+                own = rf"\frac{{{value.numerator}}}{{{value.denominator}}}"
             start, end = claim.place.start - place.start, claim.place.end - place.start
             text = text[:start] + own + text[end:]
         return text
