@@ -153,8 +153,20 @@ class Convention(msgspec.Struct, frozen=True):
     centered: bool = False
 
 
-class ClaimEntry(Entry, frozen=True):
-    """A [[claim]] of the ledger's file: one printed number, with what is recorded about it."""
+def in_header(cell: str | None) -> bool:
+    """Return whether a cell is in the header of Table A-1, whose numbers are all in column B."""
+    return cell is not None and cell.startswith("B")
+
+
+class Claim(Entry, frozen=True, dict=True, eq=False):
+    """A [[claim]]: one printed number, with what is recorded about it and what follows from that.
+
+    `Ledger.claims` fills in the fields from `text` on. `why` is the reason of which `given` is the
+    key. `computations` has the computation as printed under the name "", and other readings by
+    name. `inputs` maps each input of the computations to the entries whose product it is. `within`
+    is the equation that the number is a constant of. `chosen` says that the author set the number,
+    here or in the claim that this one repeats. `bound` is the number that a relation compares with.
+    """
 
     id: str
     title: str
@@ -175,49 +187,12 @@ class ClaimEntry(Entry, frozen=True):
     row: int | None = None
     quantity: str | None = None
     workbook: str | None = None
-
-
-class TimeSteps(Entry, frozen=True):
-    """The table [time_steps]: the rows of Table A-1 as printed, and the common keys of columns."""
-
-    rows: Mapping[str, str]
-    columns: Mapping[str, Mapping[str, Any]]
-
-    @property
-    def claims(self) -> Iterator[ClaimEntry]:
-        """The claims of the cells that print a number, by rows."""
-        for step, (row, printed) in enumerate(self.rows.items(), 1):
-            cells = dict(zip(ascii_uppercase, printed.split("\t"), strict=False))
-            for letter, column in self.columns.items():
-                marked = {**cells, letter: f"⟦{cells[letter]}⟧"}
-                own = {
-                    "id": f"{column['id']}-{step}", "title": f"{column['title']}, row {step}",
-                    "quote": "\t".join(marked.values()), "cell": f"{letter}{row}", "row": step,
-                }  # fmt: skip
-                yield msgspec.convert({**column, **own}, ClaimEntry)
-
-
-def in_header(cell: str | None) -> bool:
-    """Return whether a cell is in the header of Table A-1, whose numbers are all in column B."""
-    return cell is not None and cell.startswith("B")
-
-
-class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
-    """A claim, located in the report and linked to the entries that it depends on.
-
-    `given` is a key of [reasons] if no computation gives the number, and `why` that reason.
-    `computations` has the computation as printed under the name "", and other readings by name.
-    `inputs` maps each input of the computations to the entries whose product it is. `within` is
-    the equation that the number is a constant of. `chosen` says that the author set the number,
-    here or in the claim that this one repeats. `bound` is the number that a relation compares with.
-    """
-
-    text: str
-    place: Place
-    why: str | None
-    computations: Mapping[str, Computation]
-    inputs: Mapping[str, tuple[str, ...]]
-    within: str | None
+    text: str = ""
+    place: Place = Place()
+    why: str | None = None
+    computations: Mapping[str, Computation] = {}
+    inputs: Mapping[str, tuple[str, ...]] = {}
+    within: str | None = None
     chosen: bool = False
     bound: Fraction | None = None
 
@@ -324,6 +299,26 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         return sorted({p.equation for own in computations for p in own.premises.values()})
 
 
+class TimeSteps(Entry, frozen=True):
+    """The table [time_steps]: the rows of Table A-1 as printed, and the common keys of columns."""
+
+    rows: Mapping[str, str]
+    columns: Mapping[str, Mapping[str, Any]]
+
+    @property
+    def claims(self) -> Iterator[Claim]:
+        """The claims of the cells that print a number, by rows."""
+        for step, (row, printed) in enumerate(self.rows.items(), 1):
+            cells = dict(zip(ascii_uppercase, printed.split("\t"), strict=False))
+            for letter, column in self.columns.items():
+                marked = {**cells, letter: f"⟦{cells[letter]}⟧"}
+                own = {
+                    "id": f"{column['id']}-{step}", "title": f"{column['title']}, row {step}",
+                    "quote": "\t".join(marked.values()), "cell": f"{letter}{row}", "row": step,
+                }  # fmt: skip
+                yield msgspec.convert({**column, **own}, Claim)
+
+
 class Ledger(Entry, frozen=True, dict=True, eq=False):
     """The content of ledger.toml, with claims and equations in the order of the report.
 
@@ -339,7 +334,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     quantities: dict[str, Quantity]
     incidental: list[dict[Literal["pattern", "reason"], str]]
     equation: list[Equation]
-    claim: list[ClaimEntry]
+    claim: list[Claim]
     time_steps: TimeSteps
     slip: list[Slip]
     computation: list[Computation]
@@ -376,34 +371,36 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     @cached_property
     def claims(self) -> Mapping[str, Claim]:
         """The claims, by id."""
-        entries = (*self.claim, *self.time_steps.claims)
-        placed = sorted(map(self._placed, entries), key=lambda claim: claim.place.start)
-        claims = {claim.id: claim for claim in placed}
-        return {
-            name: replace(claim, chosen=_is_chosen(claim, claims), bound=_bound(claim, claims))
-            for name, claim in claims.items()
-        }
+        located = {}
+        for claim in (*self.claim, *self.time_steps.claims):
+            place = place_of(self.text, claim.quote, claim.cell)
+            text = self.text[place.start : place.end]
+            located[claim.id] = replace(claim, text=text, place=place)
+        in_order = sorted(located.values(), key=lambda claim: claim.place.start)
+        return {claim.id: self._linked(claim, located) for claim in in_order}
 
-    def _placed(self, claim: ClaimEntry) -> Claim:
-        """Locate a claim in the report, and look up what it names except other claims."""
-        if claim.cell:  # the workbook's sheet Table A-1 has the number in the same cell
-            claim = replace(claim, workbook=f"Table A-1!{claim.cell}")
+    def _linked(self, claim: Claim, located: Mapping[str, Claim]) -> Claim:
+        """Return a claim with the entries that it names looked up."""
+        original = claim
+        while original.same_as:
+            original = located[original.same_as]
         if claim.same_as:
             claim = replace(claim, computed_by="same_as", rests_on={"value": claim.same_as})
-        readings = {"": claim.computed_by, **claim.readings}
-        place, inputs = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
+        readings, inputs = {"": claim.computed_by, **claim.readings}, dict(claim.rests_on)
         if group := inputs.pop("group", None):
             inputs = {**self.groups[group], **inputs}
         places = ((equation.id, equation.place) for equation in self.equations.values())
-        around = (name for name, at in places if at.start <= place.start < at.end)
-        return Claim(
-            **msgspec.structs.asdict(claim),
+        around = (name for name, at in places if at.start <= claim.place.start < at.end)
+        return replace(
+            claim,
             why=claim.given and self.reasons[claim.given],
-            text=self.text[place.start : place.end],
-            place=place,
             computations={key: self.computations[name] for key, name in readings.items() if name},
             inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
             within=next(around, None),
+            chosen=original.given == "choice",
+            bound=_bound(claim, located),
+            # The workbook's sheet Table A-1 has a number of that table in the same cell.
+            workbook=f"Table A-1!{claim.cell}" if claim.cell else claim.workbook,
         )
 
     # The printed equations
@@ -532,27 +529,17 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         copy.__dict__.update(claims=claims, sides=sides)
         if name in claims:
             claims[name] = replace(claims[name], text=text)
-            for claim in self.claims.values():
-                if name in (claim.id, claim.against):
-                    changed = claims[claim.id]
-                    claims[claim.id] = replace(changed, bound=_bound(changed, claims))
+            for claim in [claim for claim in claims.values() if name in (claim.id, claim.against)]:
+                claims[claim.id] = replace(claim, bound=_bound(claim, claims))
         if equation:
             with suppress(EquationError):
                 sides[equation] = self.read(copy.printed_text(equation))
         return copy
 
 
-def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
-    """Return whether the author chose the number, here or in the claim that this one repeats."""
-    if claim.same_as:
-        return _is_chosen(claims[claim.same_as], claims)
-    return claim.given == "choice"
-
-
 def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
     """Return the number that a claim's relation compares with: its own or another claim's."""
-    compared = claims[claim.against] if claim.against else claim
-    return compared.printed.value if claim.relation and compared.printed else None
+    return claims[claim.against or claim.id].number.value if claim.relation else None
 
 
 @cache
