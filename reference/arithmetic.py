@@ -133,8 +133,8 @@ class Floats(Arithmetic):
     log, sqrt = staticmethod(math.log), staticmethod(math.sqrt)
     sin, asin = staticmethod(math.sin), staticmethod(math.asin)
 
-    def power(self, x: float, exponent: Fraction) -> float:
-        return math.pow(x, exponent)
+    def power(self, x: Number, exponent: Fraction) -> Number:
+        return x ** int(exponent) if exponent.denominator == 1 else math.pow(x, exponent)
 
 
 class DiscontinuityError(ArithmeticError):
@@ -235,9 +235,9 @@ class Duals(Arithmetic):
     def log(self, x: Dual) -> Dual:
         return x.scaled(self.arithmetic.log(x.value), 1 / x.value)
 
-    def power(self, x: Dual, exponent: Fraction) -> Dual:
-        value = self.arithmetic.power(x.value, exponent)
-        return x.scaled(value, value / x.value * self.arithmetic.number(exponent))
+    def root(self, x: Dual, degree: int) -> Dual:
+        value = self.arithmetic.power(x.value, Fraction(1, degree))
+        return x.scaled(value, value / x.value / degree)
 
     def least(self, x: Dual, bound: Dual) -> Dual:
         """Return the smaller number; if either may be it, slopes that contain those of both."""
@@ -301,7 +301,7 @@ class RationalFunction(Operators):
         return bool((self - self._alike(other)).numerator == 0)
 
 
-class RationalFunctions:
+class RationalFunctions(Arithmetic):
     """Rational functions of given symbols, of pi, and of roots and logarithms.
 
     Every root and every logarithm that occurs becomes one more symbol, the same for the same
@@ -323,7 +323,7 @@ class RationalFunctions:
         symbols = [RationalFunction(symbol, self._one) for symbol in context.gens()]
         self.symbols: Mapping[str, RationalFunction] = dict(zip(names, symbols, strict=False))
         self.pi, *self._free = symbols[len(names) :]
-        self._irrationals: list[tuple[Fraction | None, RationalFunction]] = []
+        self._irrationals: list[tuple[int | None, RationalFunction]] = []
 
     def number(self, value: Fraction | int) -> RationalFunction:
         return RationalFunction(self._one * value.numerator, self._one * value.denominator)
@@ -331,16 +331,14 @@ class RationalFunctions:
     def log(self, x: RationalFunction) -> RationalFunction:
         return self.number(0) if x == 1 else self._symbol(None, x)
 
-    def power(self, x: RationalFunction, exponent: Fraction) -> RationalFunction:
-        if exponent.denominator == 1:
-            return x ** int(exponent)
-        return x if x == 1 else self._symbol(exponent, x)
+    def root(self, x: RationalFunction, degree: int) -> RationalFunction:
+        return x if x == 1 else self._symbol(degree, x)
 
-    def _symbol(self, exponent: Fraction | None, x: RationalFunction) -> RationalFunction:
-        """Return the symbol for x to a fractional power or, without exponent, for ln x."""
-        if (exponent, x) not in self._irrationals:
-            self._irrationals.append((exponent, x))
-        return self._free[self._irrationals.index((exponent, x))]
+    def _symbol(self, degree: int | None, x: RationalFunction) -> RationalFunction:
+        """Return the symbol for the root of x of this degree or, without one, for ln x."""
+        if (degree, x) not in self._irrationals:
+            self._irrationals.append((degree, x))
+        return self._free[self._irrationals.index((degree, x))]
 
     @staticmethod
     def constant(x: RationalFunction) -> Fraction | None:

@@ -204,9 +204,7 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
         base, power = node.parts[0], _exponent(node.parts[1], values)
         if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
             base, power = base.parts[0], power * _exponent(base.parts[1], values)
-        value = evaluate(base, ar, values)
-        is_natural = power.denominator == 1 and power > 0
-        return value ** int(power) if is_natural else ar.power(value, power)
+        return ar.power(evaluate(base, ar, values), power)
     numbers = [evaluate(part, ar, values) for part in node.parts]
     if node.kind in _OPERATIONS:
         return _OPERATIONS[node.kind](ar, *numbers)
