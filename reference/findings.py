@@ -137,9 +137,7 @@ def _holds(text: str) -> bool:
 
 @cache
 def expression(text: str) -> tuple[Node, set[str]]:
-    """Read a line of arithmetic; return it with the names of the values in it.
-
-    Raises EquationError if it cannot be read.
+    """Read a line of arithmetic, and the names of the values in it. Raises EquationError.
 
     >>> sorted(expression("2 * a1-radius/cth.diameter - ln(3)")[1])
     ['a1-radius', 'cth.diameter']

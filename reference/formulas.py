@@ -91,10 +91,7 @@ def _value(text: str, names: Names, ar: Any, known: Mapping[str, Any]) -> Any:
 def _side(
     entry: Side, sides: tuple[Node, ...], names: Names, ar: Any, known: Mapping[str, Any]
 ) -> Number:
-    """Return the value of a side of an equation, or of its derivative.
-
-    `known` has the values of symbols, except where the entry puts another expression in.
-    """
+    """Return a side of an equation, or its derivative, at the `known` values of the symbols."""
     side = sides[entry.side]
     put = {symbol: _value(text, names, ar, known) for symbol, text in entry.put.items()}
     values = {**known, **put}
@@ -110,10 +107,7 @@ def _side(
 
 
 def function_of(computation: Computation, sides: Sides, names: Iterable[str]) -> Function:
-    """Return a computation as a function of an arithmetic and of inputs with these names.
-
-    `sides` are those of all printed equations.
-    """
+    """Return a computation as a function of an arithmetic and of inputs with these names."""
     if computation.formula is None:
         return FUNCTIONS[computation.name]
     premises = computation.premises
@@ -170,9 +164,8 @@ def derive(equation: Equation, sides: Sides, written: Names) -> Iterator[Check]:
         relation, bound = check.equals[0], check.equals[1:]
         if relation in "<>":  # tried in doubles, with every symbol at 1 that is not put in
             ones = dict.fromkeys(ar.symbols, 1.0)
-            value = _side(check, sides[equation.id], names, Floats(), ones)
-            holds = value < float(bound) if relation == "<" else value > float(bound)
-            yield Check(check.says, holds)
+            excess = _side(check, sides[equation.id], names, Floats(), ones) - float(bound)
+            yield Check(check.says, excess < 0 if relation == "<" else excess > 0)
             continue
         premises = {
             key: _side(premise, sides[premise.equation], names, ar, ar.symbols)

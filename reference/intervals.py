@@ -150,16 +150,12 @@ class Intervals(Arithmetic):
         return _increasing(lambda end: end * (2 - end), y)
 
     def cap_root(self, c: Number) -> Number:
-        """Return an enclosure of the roots y of y^2 - y^3/3 = c.
-
-        The roots for both ends of c are moved outwards and then verified: as y^2 - y^3/3 increases
-        on [0, 2], it must not exceed c at the lower end, nor be below it at the upper end. Raises
-        ArithmeticError if this cannot be verified.
-        """
+        """Return an interval that is verified to contain the root for every number in c."""
         with self.working():
             (least, greatest), margin = _bounded(c), arb(2) ** (20 - ctx.prec)
             low = (super().cap_root(least) * (1 - margin)).lower()
             high = (super().cap_root(greatest) * (1 + margin)).upper()
+            # y^2 - y^3/3 increases on [0, 2]: it must reach down to c at one end, up at the other.
             if not (low**2 - low**3 / 3 <= least and high**2 - high**3 / 3 >= greatest):
                 raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
         return Span(low, high)

@@ -229,10 +229,7 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
         return self.exact or self.kind == "constant"
 
     def interval(self, rounding: Rounding = Rounding.AWAY) -> Interval:
-        """Return the values, in the claim's unit, that agree with it.
-
-        Raises ValueError for a remark, which prints no number.
-        """
+        """Return the values that agree with it, in its unit. Raises ValueError for a remark."""
         if self.bound is not None:
             above, closed = self.relation in (">", ">="), self.relation in ("<=", ">=")
             low, high = (self.bound, None) if above else (None, self.bound)
@@ -556,10 +553,7 @@ def load() -> Ledger:
 
 
 def tables(file: str, kind: Any) -> Any:
-    """Return a TOML file of `reference/report` as structs of this kind.
-
-    Raises msgspec.ValidationError if the file does not match them.
-    """
+    """Read a TOML file of `reference/report`. Raises msgspec.ValidationError if it does not fit."""
     document = tomllib.loads(_file(file))
     return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
 

@@ -91,7 +91,7 @@ class Trajectory:
     With y = x/R, u = v/V and time in units of R/V, the acceleration is
     du/dt = -(drag u^2 + push) A(y), where the contact area over pi R^2 is A(y) = 2y - y^2 up to
     y = 1, and 1 beyond. The integral of A from 0 to y is called the work. `final_depth` [m] is the
-    depth at rest.
+    depth at rest. A depth or a velocity that the particle never has raises ValueError.
 
     >>> motion = Trajectory(*map(Fraction, ("500", "11e-6", "8900", "7850", "35e8")), digits=20)
     >>> print(motion.context.nstr(motion.final_depth * 10**6, 12))
@@ -133,28 +133,18 @@ class Trajectory:
         return self.context.sqrt(self.push / self.drag * gained)
 
     def velocity_at_depth(self, depth: Number) -> Number:
-        """Return the velocity [m/s] at a depth [m].
-
-        Raises ValueError for a depth that is negative or exceeds the final depth.
-        """
+        """Return the velocity [m/s] at a depth [m]."""
         return self.velocity * self._velocity(self._final * self._left(depth))
 
     def _left(self, depth: Number) -> Number:
-        """Return the fraction of the final depth that is left at a depth [m].
-
-        Raises ValueError for a depth that the particle never reaches, which is one that exceeds the
-        final depth by more than a few rounding errors.
-        """
+        """Return the fraction of the final depth that is left at a depth [m]."""
         left = 1 - self.context.convert(depth) / self.final_depth
-        if not -8 * self.context.eps <= left <= 1:
+        if not -8 * self.context.eps <= left <= 1:  # the final depth itself may be rounded
             raise ValueError(f"the particle never gets to a depth of {depth} m")
         return self.reals.greatest(left, self.context.zero)
 
     def depth_at_velocity(self, velocity: Number) -> Number:
-        """Return the depth [m] at which the speed has fallen to a value [m/s].
-
-        Raises ValueError for a speed above the impact velocity.
-        """
+        """Return the depth [m] at which the velocity has fallen to a value [m/s]."""
         u = self.context.convert(velocity) / self.velocity
         if abs(u) > 1:
             raise ValueError(f"the particle never has a velocity of {velocity} m/s")
@@ -162,10 +152,7 @@ class Trajectory:
         return self.radius * self._depth_of(self.context.log1p(lost) / (2 * self.drag))
 
     def time_to_depth(self, depth: Number) -> Number:
-        """Return the time [s] to reach a depth [m].
-
-        Raises ValueError for a depth that is negative or exceeds the final depth.
-        """
+        """Return the time [s] to reach a depth [m]."""
         start, final = self.context.sqrt(self._left(depth)), self._final
         if start >= 1:
             return self.context.zero

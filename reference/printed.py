@@ -260,10 +260,7 @@ class Place(msgspec.Struct, frozen=True):
 
 
 def place_of(text: str, quote: str, cell: str | None = None) -> Place:
-    """Return the place of the words between ⟦ and ⟧ of a quote.
-
-    Raises ValueError unless the text has the whole quote exactly once.
-    """
+    """Return where a quote's words in ⟦⟧ stand. Raises ValueError unless it occurs once."""
     before, marked, after = re.split("[⟦⟧]", quote)
     words = before + marked + after
     if (times := text.count(words)) != 1:

@@ -21,10 +21,7 @@ class DimensionError(ValueError):
 
 
 class Dimension(msgspec.Struct, frozen=True):
-    """The dimension of a physical quantity, as powers of kilogram, metre and second.
-
-    The operators give the dimension of the negative, sum, product, quotient or power of quantities.
-    """
+    """The dimension of a physical quantity, as powers of kilogram, metre and second."""
 
     powers: tuple[Fraction, ...] = (Fraction(0), Fraction(0), Fraction(0))
 
@@ -60,17 +57,14 @@ _MASS, _LENGTH, _TIME = (
 _FORCE = _MASS * _LENGTH / _TIME**2
 _PRESSURE = _FORCE / _LENGTH**2
 _BASES: dict[str, tuple[Fraction, Dimension, str]] = {
-    # name: factor to SI, dimension, the metric prefixes that it accepts
+    # names: factor to SI, dimension, the metric prefixes that they accept
     "1": (Fraction(1), _NUMBER, ""),
-    "percent": (Fraction(1, 100), _NUMBER, ""),
-    "%": (Fraction(1, 100), _NUMBER, ""),
+    "percent %": (Fraction(1, 100), _NUMBER, ""),
     "g": (Fraction(1, 1000), _MASS, "n u m k"),
     "lb": (_POUND, _MASS, ""),
     "m": (Fraction(1), _LENGTH, "n u m c k"),
-    "in": (_INCH, _LENGTH, ""),
-    "inch": (_INCH, _LENGTH, ""),
-    "mil": (_INCH / 1000, _LENGTH, ""),
-    "thou": (_INCH / 1000, _LENGTH, ""),
+    "in inch": (_INCH, _LENGTH, ""),
+    "mil thou": (_INCH / 1000, _LENGTH, ""),
     "ft": (12 * _INCH, _LENGTH, ""),
     "cc": (Fraction(1, 10**6), _LENGTH**3, ""),
     "s": (Fraction(1), _TIME, "p n u m"),
@@ -87,7 +81,8 @@ _BASES: dict[str, tuple[Fraction, Dimension, str]] = {
 _PREFIXES = {"": 0, "p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
 _UNITS = {
     prefix + name: (factor * Fraction(10) ** _PREFIXES[prefix], dimension)
-    for name, (factor, dimension, prefixes) in _BASES.items()
+    for names, (factor, dimension, prefixes) in _BASES.items()
+    for name in names.split()
     for prefix in ["", *prefixes.split()]
 }
 _FACTOR = re.compile(
@@ -117,9 +112,7 @@ def _unit(unit: str) -> tuple[Fraction, Dimension]:
 
 
 def to_si(unit: str) -> Fraction:
-    """Return the factor that converts a value in this unit to SI base units.
-
-    Raises UnitError for an unknown unit.
+    """Return the factor from a unit to SI base units. Raises UnitError for an unknown unit.
 
     >>> to_si("um"), float(to_si("ksi"))
     (Fraction(1, 1000000), 6894757.293168361)
@@ -128,9 +121,7 @@ def to_si(unit: str) -> Fraction:
 
 
 def unit_dimension(unit: str) -> Dimension:
-    """Return the dimension of the quantities that a unit measures.
-
-    Raises UnitError for an unknown unit.
+    """Return the dimension of what a unit measures. Raises UnitError for an unknown unit.
 
     >>> print(unit_dimension("MPa"))
     kg m^-1 s^-2
