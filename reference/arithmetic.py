@@ -24,8 +24,8 @@ class Arithmetic:
     """The functions that the formulas need besides the operators, by default for single numbers.
 
     `power` needs x > 0 unless the exponent is an integer. `cap_root` is the y in [0, 1] with
-    y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is whether x < bound; None means that this is
-    true of some numbers that an interval contains and false of others.
+    y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is whether x < bound; None if that is not known of
+    all numbers in an interval.
     """
 
     pi: Number
@@ -305,8 +305,8 @@ class RationalFunctions(Arithmetic):
     """Rational functions of given symbols, of pi, and of roots and logarithms.
 
     Every root and every logarithm that occurs becomes one more symbol, the same for the same
-    argument. Equality is therefore proven where it is found; a relation between irrational numbers,
-    such as sqrt(x)^2 = x, is not known.
+    argument. An equality that is found is therefore proven, but relations between irrational
+    numbers, such as sqrt(x)^2 = x, are not known.
 
     >>> ar = RationalFunctions(["x", "y"])
     >>> x, y = ar.symbols["x"], ar.symbols["y"]

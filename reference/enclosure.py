@@ -59,14 +59,14 @@ def enclose(function: Function, box: Box) -> Range:
     wide = [name for name, (low, high) in box.items() if low != high]
     tangent = _tangent(function, box, wide) if wide else None
     if tangent is None:
-        return Range(_plain(function, box), dict.fromkeys(wide, 0))
+        return Range(_plain_range(function, box), dict.fromkeys(wide, 0))
     slopes = {name: tangent.slopes.get(name, _INTERVALS.number(0)) for name in wide}
     signs = {name: _INTERVALS.sign(slope) for name, slope in slopes.items()}
     idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
     if not any(signs.values()):
         # Intersect plain interval arithmetic with the mean-value form about the middle.
         low, high = _INTERVALS.ends(tangent.value)
-        below, above = _plain(function, _points(_middle(box)))
+        below, above = _plain_range(function, _points(_middle(box)))
         for name, slope in slopes.items():
             reach = max(map(abs, _INTERVALS.ends(slope))) * (box[name][1] - box[name][0]) / 2
             below, above = below - reach, above + reach
@@ -83,7 +83,7 @@ def _points(point: Mapping[str, Fraction]) -> Box:
     return {name: (value, value) for name, value in point.items()}
 
 
-def _plain(function: Function, box: Box) -> Ends:
+def _plain_range(function: Function, box: Box) -> Ends:
     """Return a proven range of the function over the box, without use of its derivatives."""
     with _INTERVALS.working():
         numbers = {name: _INTERVALS.interval(*ends) for name, ends in box.items()}
@@ -94,7 +94,7 @@ def _plain(function: Function, box: Box) -> Ends:
 def _tangent(function: Function, box: Box, wide: list[str]) -> Dual | None:
     """Return enclosures, over the box, of the function and its derivatives by the `wide` inputs.
 
-    None if the function may jump in the box, or may divide by zero.
+    None if the function may jump in the box, or if it may divide by zero there.
     """
     with _INTERVALS.working():
         numbers = {}
@@ -157,7 +157,7 @@ def solve(
     inner, outer, given = list[Ends](), list[Ends](), _points(others)
 
     def value(x: Fraction) -> Ends:
-        return _plain(function, {**given, name: (x, x)})
+        return _plain_range(function, {**given, name: (x, x)})
 
     for tried, part in enumerate(parts, 1):  # the list grows while there is budget left
         try:
@@ -177,7 +177,7 @@ def solve(
             between = first[1], last[0]
             if between[0] <= between[1] and all(target.encloses(*value(x)) for x in between):
                 inner.append(between)
-    return Solutions(search, _merged(inner), _merged(outer))
+    return Solutions(search, _union(inner), _union(outer))
 
 
 def _crossing(
@@ -204,7 +204,7 @@ def _crossing(
     return low, high
 
 
-def _merged(parts: list[Ends]) -> tuple[Ends, ...]:
+def _union(parts: list[Ends]) -> tuple[Ends, ...]:
     """Return the union of intervals as disjoint ones, sorted."""
     merged: list[Ends] = []
     for low, high in sorted(parts):
@@ -241,7 +241,7 @@ def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
             # For this input's greatest value, inputs with the same sign are low and others high.
             alike = {key: range_.signs.get(key, 1) == range_.signs.get(name, 1) for key in box}
             others = {key: ends[alike[key] != top] for key, ends in box.items() if key != name}
-            if target.encloses(*_plain(function, _points({**others, name: outer[top]}))):
+            if target.encloses(*_plain_range(function, _points({**others, name: outer[top]}))):
                 continue  # the constraint holds even at the present bound
             if beyond := solve(function, name, box[name], target, others=others).outer:
                 bound = (beyond[0][0], beyond[-1][1])[top]
@@ -262,32 +262,32 @@ def satisfying(
     queue = deque([(box, list(constraints))])
     sizes = {name: max(map(abs, ends)) or 1 for name, ends in box.items()}
     for _ in range(budget):
+        if not queue:
+            break
         part, remaining = queue.popleft()
         undecided = _undecided(remaining, part)
         if undecided is None:
-            if not queue:
-                return False, None
             continue
-        point = _aimed(undecided, part)
+        point = _candidate(undecided, part)
         if _undecided(undecided, _points(point)) == []:
             return True, point
         # Halve the input whose range is widest relative to its largest magnitude in the whole box.
         name = max(part, key=lambda name: (part[name][1] - part[name][0]) / sizes[name])
         (low, high), middle = part[name], _middle(part)[name]
         queue += [({**part, name: half}, undecided) for half in ((low, middle), (middle, high))]
-    return None, None
+    return (None if queue else False), None
 
 
-def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
+def _candidate(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
     """Return a point of the box at which the constraints, linearized in its middle, may hold.
 
     Doubles suffice, as this proves nothing. From the middle, the point is projected onto one
     linearized constraint after the other, in coordinates scaled by the widths of the box.
     """
-    middle, moved = _middle(box), dict.fromkeys(box, 0.0)
+    middle, shift = _middle(box), dict.fromkeys(box, 0.0)
     widths = {name: high - low for name, (low, high) in box.items()}
     numbers = {name: _TANGENTS.variable(float(value), name) for name, value in middle.items()}
-    planes = []
+    linearized = []
     for function, target in constraints:
         try:
             dual = function(_TANGENTS, **numbers)
@@ -300,14 +300,14 @@ def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
         margin = 0.0 if isinf(high - low) else (high - low) / 100
         slopes = {name: slope * float(widths[name]) for name, slope in dual.slopes.items()}
         if steepness := sum(slope * slope for slope in slopes.values()):
-            planes.append((dual.value, slopes, steepness, low + margin, high - margin))
+            linearized.append((dual.value, slopes, steepness, low + margin, high - margin))
     for _ in range(30):  # further rounds would hardly move the point
-        for value, slopes, steepness, low, high in planes:
-            reached = value + sum(slope * moved[name] for name, slope in slopes.items())
-            short = max(low - reached, 0.0) + min(high - reached, 0.0)
-            for name, slope in slopes.items() if short else ():
-                moved[name] = min(0.49, max(-0.49, moved[name] + short * slope / steepness))
-    return {name: value + widths[name] * Fraction(moved[name]) for name, value in middle.items()}
+        for value, slopes, steepness, low, high in linearized:
+            reached = value + sum(slope * shift[name] for name, slope in slopes.items())
+            missing = max(low - reached, 0.0) + min(high - reached, 0.0)
+            for name, slope in slopes.items() if missing else ():
+                shift[name] = min(0.49, max(-0.49, shift[name] + missing * slope / steepness))
+    return {name: value + widths[name] * Fraction(shift[name]) for name, value in middle.items()}
 
 
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:
@@ -315,7 +315,7 @@ def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] 
     undecided = []
     for function, target in constraints:
         try:
-            ends = _plain(function, box)  # much faster than with derivatives
+            ends = _plain_range(function, box)  # much faster than with derivatives
             if not target.decides(*ends):
                 ends = enclose(function, box).ends
         except ArithmeticError:  # undefined or unbounded in part of the box

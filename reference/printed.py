@@ -39,16 +39,16 @@ class Interval(msgspec.Struct, frozen=True, dict=True):
     upper_closed: bool = True
 
     def __post_init__(self) -> None:
-        if self._starts > self._stops:
+        if self._lower_key > self._upper_key:
             raise ValueError(f"the interval from {self.lower} to {self.upper} is empty")
 
     @cached_property
-    def _starts(self) -> tuple[Fraction | float, int]:
+    def _lower_key(self) -> tuple[Fraction | float, int]:
         """The lower end as a key to compare with (value, 0): an open end ranks just inside."""
         return (-inf if self.lower is None else self.lower), 1 - self.lower_closed
 
     @cached_property
-    def _stops(self) -> tuple[Fraction | float, int]:
+    def _upper_key(self) -> tuple[Fraction | float, int]:
         """The upper end, likewise."""
         return (inf if self.upper is None else self.upper), self.upper_closed - 1
 
@@ -75,11 +75,11 @@ class Interval(msgspec.Struct, frozen=True, dict=True):
 
     def encloses(self, lower: Fraction, upper: Fraction) -> bool:
         """Return whether every value from lower to upper lies in the interval."""
-        return self._starts <= (lower, 0) and (upper, 0) <= self._stops
+        return self._lower_key <= (lower, 0) and (upper, 0) <= self._upper_key
 
     def excludes(self, lower: Fraction, upper: Fraction) -> bool:
         """Return whether no value from lower to upper lies in the interval."""
-        return (upper, 0) < self._starts or self._stops < (lower, 0)
+        return (upper, 0) < self._lower_key or self._upper_key < (lower, 0)
 
     def decides(self, lower: Fraction, upper: Fraction) -> bool:
         """Return whether all values from lower to upper lie in the interval, or none does."""
@@ -87,7 +87,7 @@ class Interval(msgspec.Struct, frozen=True, dict=True):
 
     def meets(self, another: "Interval") -> bool:
         """Return whether the two intervals have a value in common."""
-        return self._starts <= another._stops and another._starts <= self._stops
+        return self._lower_key <= another._upper_key and another._lower_key <= self._upper_key
 
     def scaled(self, factor: Fraction) -> "Interval":
         """Return the interval times a positive factor, as for a change of unit."""
@@ -161,8 +161,8 @@ class Printed(msgspec.Struct, frozen=True):
         else:
             # With a fixed number of significant digits, the numbers that can be printed lie ten
             # times closer together below a power of ten than above it.
-            counted = self.floating or (self.quantum and quantum != self.quantum)
-            closer = counted and re.fullmatch("10*", str(size / quantum))
+            digits_are_fixed = self.floating or (self.quantum and quantum != self.quantum)
+            closer = digits_are_fixed and re.fullmatch("10*", str(size / quantum))
             below = quantum / 10 if closer else quantum
             low, high = size - below / 2, size + quantum / 2
             even = size / quantum % 2 == 0
@@ -203,7 +203,7 @@ _WORDS = {
 }  # fmt: skip
 _TEN = r"10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\})"
 _DECIMAL = re.compile(
-    r"(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<part>\d+))?"
+    r"(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<decimals>\d+))?"
     rf"(?:[Ee](?P<e>[-+]?\d{{1,4}})|\s*(?:×|x|\\times)\s*{_TEN})?"
 )
 _FRACTION = re.compile(r"(\d+)/([1-9]\d*)|\\frac\{(\d+)\}\{([1-9]\d*)\}")
@@ -232,12 +232,12 @@ def parse(text: str) -> Printed:
     match = _DECIMAL.fullmatch(bare)
     if match is None:
         raise ValueError(f"cannot read {text!r} as a printed number")
-    whole, part = match["whole"].replace(",", ""), match["part"] or ""
+    whole, decimals = match["whole"].replace(",", ""), match["decimals"] or ""
     exponent = int((match["e"] or match["power"] or "0").strip("{}"))
-    scale = Fraction(10) ** (exponent - len(part))
-    value = int(match["sign"] + whole + part) * scale
+    scale = Fraction(10) ** (exponent - len(decimals))
+    value = int(match["sign"] + whole + decimals) * scale
     floating = match["e"] is not None or match["power"] is not None
-    digits = "" if part or floating else whole.lstrip("0")
+    digits = "" if decimals or floating else whole.lstrip("0")
     zeros = len(digits) - len(digits.rstrip("0"))
     return Printed(text, value, tuple(scale * 10**n for n in range(zeros + 1)), floating)
 
