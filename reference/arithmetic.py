@@ -119,7 +119,7 @@ class Rationals(Arithmetic):
     number = Fraction
 
     def _inexact(self, *_: Number) -> Number:
-        raise InexactError("it is no fraction, or not known to be one")
+        raise InexactError("the value is not rational, or not known to be")
 
     log = sqrt = root = asin = _inexact
     pi = property(_inexact)

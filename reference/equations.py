@@ -223,8 +223,6 @@ _OPERATIONS: Mapping[str, Callable[..., Any]] = {
 
 def _exponent(node: Node, values: Mapping[str, Any]) -> Fraction:
     """Return the value of an exponent, whose symbols must have Fractions as values."""
-    if node.kind == "number":
-        return node.value
     known = {name: value for name, value in values.items() if isinstance(value, Fraction)}
     try:
         return Fraction(evaluate(node, Rationals(), known))
@@ -269,7 +267,6 @@ class Notation(msgspec.Struct, frozen=True):
     row: Callable[[str], str] = str
     plus: str = " + "
     less: str = " - "
-    minus: str = "-"
     times: str = " "
     stroke: tuple[int, int] = (3, 4)
 
@@ -292,7 +289,6 @@ MATHML = Notation(
     row="<mrow>{}</mrow>".format,
     plus="<mo>+</mo>",
     less="<mo>\N{MINUS SIGN}</mo>",
-    minus="<mo>\N{MINUS SIGN}</mo>",
     times="<mo>\N{INVISIBLE TIMES}</mo>",
     stroke=(0, 0),
 )
@@ -321,7 +317,7 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
         case "number" | "symbol":
             return notation.symbol(node.name if node.kind == "number" else shown[node.name])
         case "negative":
-            return notation.row(notation.minus + part(parts[0], 2))
+            return notation.row(notation.less.strip() + part(parts[0], 2))
         case "sum":
             return notation.row(part(parts[0], 0) + "".join(map(added, parts[1:])))
         case "product":

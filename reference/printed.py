@@ -191,7 +191,7 @@ class Printed(msgspec.Struct, frozen=True):
         if parts == 1:
             return self.interval(quantum=Fraction(1))
         if whole != 1:
-            raise ValueError(f"{self.text!r} is no whole number and no unit fraction")
+            raise ValueError(f"{self.text!r} is neither a whole number nor a unit fraction")
         below, above = (Fraction(1, n) for n in (parts + 1, parts - 1))
         return Interval((below + self.value) / 2, (self.value + above) / 2)
 

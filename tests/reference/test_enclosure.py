@@ -125,7 +125,7 @@ def test_a_search_finds_a_point_or_proves_that_there_is_none(
 
 @settings(max_examples=150)
 @given(name=st.sampled_from(OF_ONE), search=searches(), target=targets())
-def test_solutions_are_inside_and_nothing_else_is(
+def test_inner_parts_are_solutions_and_nothing_outside_the_outer_parts_is(
     name: str, search: tuple[F, F], target: Interval
 ) -> None:
     result = solve(FUNCTIONS[name], "x", search, target)

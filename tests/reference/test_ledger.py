@@ -107,9 +107,9 @@ def test_the_table_cell_by_cell() -> None:
     assert len(LEDGER.blank) == 24 + 6 + 1
 
 
-@kept("reference/kept.txt", "Inputs: what they stand for; with ties to even; with the header exact;"
-      " with choices rounded; these with the header exact, or cut off")  # fmt: skip
-def test_what_a_number_stands_for_as_an_input(question: str, answer: str) -> None:
+@kept("reference/kept.txt", "Inputs: the values that they may have; with ties to even; with the"
+      " header exact; with choices rounded; these with the header exact, or cut off")  # fmt: skip
+def test_the_values_that_a_number_may_have_as_an_input(question: str, answer: str) -> None:
     conventions = (
         Convention(),
         Convention(rounding=Rounding.EVEN),
@@ -153,7 +153,7 @@ def test_claims_do_not_rest_on_each_other_in_a_circle() -> None:
     assert [*TopologicalSorter(rests_on).static_order()]
 
 
-def test_equations_inferred_inputs_sources_and_slips_name_what_there_is() -> None:
+def test_equations_inferred_inputs_sources_and_slips_name_existing_entries() -> None:
     assert all(own.checks for own in LEDGER.equations.values() if own.kind == "derived")
     for entry in LEDGER.inferred.values():
         own = (entry.mass, entry.radius, entry.density, *entry.header)
@@ -231,7 +231,7 @@ def test_quotations_arithmetic_names_and_assertions_of_a_finding(name: str) -> N
         assert assertion.holds(parse("7.67").value) in (True, False)
 
 
-def test_no_finding_stands_there_twice() -> None:
+def test_finding_ids_are_unique() -> None:
     assert len(load_findings()) == len(RAW["finding"]) == len(TEXTS)
 
 
