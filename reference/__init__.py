@@ -1,10 +1,10 @@
-"""What is known: the report's printed numbers, and its equations to any precision.
+"""The reference: the report's printed numbers, and its equations in any precision.
 
-Where things are: `report/` has the report's text and, as tables, all that is said of it: every
-printed number or equation (`ledger.toml`: where it stands, what computes it, the workbook's cell),
-public sources (`sources.toml`) and findings (`findings.toml`). `ledger.py` and `findings.py` read
-them. `printed.py` gives the interval of what prints like a number. `formulas.py` computes a claim
-by the equations that `equations.py` reads, in any of the numbers of `arithmetic.py`; `enclosure.py`
-proves its range over inputs in `intervals.py`. What follows from that, verdict and explanation, is
-judged in `replication/audit`: `verdict.py` and `explain.py`.
+`report/` has the report's text and, as TOML tables, everything that is recorded about it: each
+printed number and equation (`ledger.toml`), public sources (`sources.toml`) and findings
+(`findings.toml`). `ledger.py` and `findings.py` read them. `printed.py` gives the interval of the
+values that print as a number. `equations.py` reads the equations, and `formulas.py` computes claims
+from them in any arithmetic of `arithmetic.py`. `enclosure.py` proves bounds over ranges of inputs
+with the interval arithmetic of `intervals.py`, and `motion.py` computes the exact motion. Verdicts
+and explanations follow in `replication/audit`: `verdict.py` and `explain.py`.
 """

@@ -1,8 +1,9 @@
-"""The kinds of numbers in which the report's formulas, each written once, can be computed.
+"""The arithmetics in which the report's formulas, each written once, are evaluated.
 
-`Reals` are mpmath numbers of any precision, `reference.intervals.Intervals` proven intervals.
-`Duals` carry the derivatives along in either of them. `RationalFunctions` are quotients of
-polynomials, in which two forms of an equation are equal exactly or not at all.
+`Floats` are IEEE doubles, `Reals` mpmath numbers of any precision, `Rationals` exact fractions, and
+`reference.intervals.Intervals` proven enclosures. `Duals` add first derivatives to any of these.
+`RationalFunctions` are quotients of polynomials, in which two forms of an equation are compared
+exactly, for all values of their symbols.
 """
 
 import math
@@ -13,53 +14,59 @@ from functools import cache
 from typing import Any, Self
 
 Number = Any
-"""A number of the arithmetic in use; all of them have the operators + - * /."""
+"""A number of the arithmetic in use; every kind of number has the operators + - * /."""
 
 Function = Callable[..., Number | Fraction]
-"""Takes an arithmetic and inputs by name; gives a Fraction where the value is known exactly."""
+"""A function of an arithmetic and of inputs by name; a Fraction if its value is known exactly."""
 
 
 class Arithmetic:
-    """The functions that the formulas need beyond the operators; the defaults are for points.
+    """The functions that the formulas need besides the operators, by default for single numbers.
 
-    `power` takes x > 0 unless the exponent is a whole number. `cap_root` is the y in [0, 1] with
-    y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is None where x < bound is possible, not certain.
+    `power` needs x > 0 unless the exponent is an integer. `cap_root` is the y in [0, 1] with
+    y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is whether x < bound; None if that is not known of
+    all numbers in an interval.
     """
 
     pi: Number
     number: Callable[[Any], Number]
     log: Callable[[Any], Number]
     sqrt: Callable[[Any], Number]
+    root: Callable[[Any, int], Number]
     sin: Callable[[Any], Number]
     asin: Callable[[Any], Number]
-    power: Callable[[Any, Fraction], Number]
     least: Callable[[Any, Any], Number] = staticmethod(min)
     below: Callable[[Any, Any], bool | None] = staticmethod(operator.lt)
 
     def greatest(self, x: Number, bound: Number) -> Number:
         return -self.least(-x, -bound)
 
+    def power(self, x: Number, exponent: Fraction) -> Number:
+        root = x if exponent.denominator == 1 else self.root(x, exponent.denominator)
+        size = root ** abs(exponent.numerator)
+        return size if exponent > 0 else 1 / size
+
     def cap_root(self, c: Number) -> Number:
-        # By the triple angle of 1 - y, without cancellation.
+        # The cubic's trigonometric solution, in a form without cancellation for small c.
         third = self.asin(self.sqrt(3 * c) / 2) / 3
         return 2 * self.sin(third) ** 2 + self.sqrt(self.number(3)) * self.sin(2 * third)
 
     def crater(self, volume_ratio: Number) -> Number:
-        """X/R of a crater: CV/PV = y^2 (3 - y) / 4 = (3/4) (y^2 - y^3/3)."""
+        """Return X/R of a crater from CV/PV = y^2 (3 - y)/4 = (3/4) (y^2 - y^3/3), y = X/R."""
         return self.cap_root(4 * volume_ratio / 3)
 
     def contact_share(self, y: Number) -> Number:
-        """y (2 - y), which increases on its domain, 0 <= y <= 1."""
+        """Return the contact area over pi R^2 at y = x/R: y (2 - y), which increases on [0, 1]."""
         return y * (2 - y)
 
     def hull(self, numbers: list[Number]) -> Number:
-        """A number that contains all of these."""
+        """Return a number that contains all of these. A single number contains only itself."""
         (only,) = numbers
         return only
 
 
 class Reals(Arithmetic):
-    """mpmath numbers of a given number of decimal digits; no global precision is changed.
+    """mpmath numbers with a given number of decimal digits; no global precision is changed.
 
     >>> print(Reals(30).pi)
     3.14159265358979323846264338328
@@ -75,9 +82,8 @@ class Reals(Arithmetic):
     def log(self, x: Number) -> Number:
         return self._real(self.context.log(x))
 
-    def power(self, x: Number, exponent: Fraction) -> Number:
-        root = x if exponent.denominator == 1 else self.context.root(x, exponent.denominator)
-        return self._real(root) ** exponent.numerator
+    def root(self, x: Number, degree: int) -> Number:
+        return self._real(self.context.root(x, degree))
 
     def _real(self, x: Number) -> Number:
         if isinstance(x, self.context.mpc):
@@ -85,16 +91,17 @@ class Reals(Arithmetic):
         return x
 
     def cap_root(self, c: Number) -> Number:
+        """Return y in [0, 2] for c in [0, 4/3], by a root search that checks the sines above."""
         if 3 * c > 4:
             raise ArithmeticError("y^2 - y^3/3 is at most 4/3, at y = 2")
-        # With y = s sqrt(c) the root s stays in [1, 1.23], however small c is.
+        # With y = s sqrt(c), s stays within [1, 1.23] for c <= 2/3, however small c is.
         root = self._real(self.context.sqrt(c))
         return root * self.context.findroot(lambda s: s * s - root * s**3 / 3 - 1, (1, 1.2))
 
 
 @cache
 def _context(digits: int) -> Any:
-    """An mpmath context, made once: that takes milliseconds, and the import many more."""
+    """Return an mpmath context, cached: making one takes milliseconds, and the import many more."""
     import mpmath
 
     context = mpmath.MPContext()
@@ -103,21 +110,18 @@ def _context(digits: int) -> Any:
 
 
 class InexactError(ArithmeticError):
-    """A number is not rational, or not known to be."""
+    """The value is not rational, or not known to be."""
 
 
 class Rationals(Arithmetic):
-    """Exact fractions, for as long as a formula needs no other numbers."""
+    """Exact fractions. Raises InexactError where a formula needs any other number."""
 
     number = Fraction
 
-    def power(self, x: Number, exponent: Fraction) -> Number:
-        return x ** int(exponent) if exponent.denominator == 1 else self._inexact()
-
     def _inexact(self, *_: Number) -> Number:
-        raise InexactError("it is no fraction, or not known to be one")
+        raise InexactError("the value is not rational, or not known to be")
 
-    log = sqrt = asin = _inexact
+    log = sqrt = root = asin = _inexact
     pi = property(_inexact)
 
 
@@ -126,21 +130,24 @@ class Floats(Arithmetic):
 
     pi = math.pi
     number: Callable[[Any], Number] = float
-    log, power, sqrt = staticmethod(math.log), staticmethod(math.pow), staticmethod(math.sqrt)
+    log, sqrt = staticmethod(math.log), staticmethod(math.sqrt)
     sin, asin = staticmethod(math.sin), staticmethod(math.asin)
+
+    def power(self, x: Number, exponent: Fraction) -> Number:
+        return x ** int(exponent) if exponent.denominator == 1 else math.pow(x, exponent)
 
 
 class DiscontinuityError(ArithmeticError):
-    """A function may jump where its derivatives are asked for, so it has none there."""
+    """The function may jump inside the box, so that it has no derivative there."""
 
 
 class Operators:
-    """The operators that follow from `+`, `*`, `/` and the change of sign."""
+    """The operators that follow from addition, multiplication, division and negation."""
 
     __slots__ = ()
 
     def _alike(self, x: Any) -> Self:
-        """A number of this kind: x itself, or made of x."""
+        """Return x itself if it is of this class, else x as a number of this class."""
         return x if isinstance(x, type(self)) else type(self)(x)  # type: ignore[call-arg]
 
     def __radd__(self, other: Any) -> Any:
@@ -160,7 +167,10 @@ class Operators:
 
 
 class Dual(Operators):
-    """A number with its derivatives by the variables it depends on: `slopes` by their names."""
+    """A number with its partial derivatives: `slopes`, by the names of the variables.
+
+    A variable that is missing there has the derivative 0.
+    """
 
     __slots__ = ("slopes", "value")
 
@@ -168,7 +178,7 @@ class Dual(Operators):
         self.value, self.slopes = value, slopes
 
     def scaled(self, value: Number, outer: Number) -> "Dual":
-        """A function of this number, given the function's value and derivative there."""
+        """Return f(self) by the chain rule, given the value and the derivative of f at self."""
         return Dual(value, {name: outer * slope for name, slope in self.slopes.items()})
 
     def __neg__(self) -> "Dual":
@@ -181,14 +191,15 @@ class Dual(Operators):
     def __mul__(self, other: Any) -> "Dual":
         if not isinstance(other, Dual):
             return self.scaled(self.value * other, other)
-        mine = {name: slope * other.value for name, slope in self.slopes.items()}
-        others = {name: self.value * slope for name, slope in other.slopes.items()}
-        return Dual(self.value * other.value, _added(mine, others))
+        left = {name: slope * other.value for name, slope in self.slopes.items()}
+        right = {name: self.value * slope for name, slope in other.slopes.items()}
+        return Dual(self.value * other.value, _added(left, right))
 
     def __truediv__(self, other: Any) -> "Dual":
+        # (x/y)' = (x' - (x/y) y') / y
         other = self._alike(other)
         quotient = self.value / other.value
-        slopes = _added(self.slopes, (-other).scaled(quotient, quotient).slopes)
+        slopes = _added(self.slopes, other.scaled(quotient, -quotient).slopes)
         return Dual(quotient, {name: slope / other.value for name, slope in slopes.items()})
 
     def __pow__(self, exponent: int) -> "Dual":
@@ -196,14 +207,12 @@ class Dual(Operators):
 
 
 def _added(first: Mapping[str, Number], second: Mapping[str, Number]) -> Mapping[str, Number]:
-    total = dict(first)
-    for name, slope in second.items():
-        total[name] = total[name] + slope if name in total else slope
-    return total
+    shared = {name: first[name] + second[name] for name in first.keys() & second.keys()}
+    return {**first, **second, **shared}
 
 
 class Duals(Arithmetic):
-    """Numbers of another arithmetic with their derivatives.
+    """The numbers of another arithmetic, with derivatives by the variables that are declared.
 
     >>> ar = Duals(Reals(20))
     >>> x = ar.variable(ar.arithmetic.number(3), "x")
@@ -217,7 +226,7 @@ class Duals(Arithmetic):
     pi = property(lambda self: Dual(self.arithmetic.pi))
 
     def variable(self, value: Number, name: str) -> Dual:
-        """A variable, by which derivatives are taken."""
+        """Return a variable, by which derivatives are taken."""
         return Dual(value, {name: self.arithmetic.number(1)})
 
     def number(self, value: Fraction | int) -> Number:
@@ -226,12 +235,12 @@ class Duals(Arithmetic):
     def log(self, x: Dual) -> Dual:
         return x.scaled(self.arithmetic.log(x.value), 1 / x.value)
 
-    def power(self, x: Dual, exponent: Fraction) -> Dual:
-        value = self.arithmetic.power(x.value, exponent)
-        return x.scaled(value, value / x.value * self.arithmetic.number(exponent))
+    def root(self, x: Dual, degree: int) -> Dual:
+        value = self.arithmetic.power(x.value, Fraction(1, degree))
+        return x.scaled(value, value / x.value / degree)
 
     def least(self, x: Dual, bound: Dual) -> Dual:
-        """The smaller number; where it is unclear which that is, its slopes contain both's."""
+        """Return the smaller number; if either may be it, slopes that contain those of both."""
         value = self.arithmetic.least(x.value, bound.value)
         below = self.arithmetic.below(x.value, bound.value)
         if below is not None:
@@ -248,7 +257,7 @@ class Duals(Arithmetic):
 
     def cap_root(self, c: Dual) -> Dual:
         y = self.arithmetic.cap_root(c.value)
-        return c.scaled(y, 1 / self.arithmetic.contact_share(y))
+        return c.scaled(y, 1 / self.arithmetic.contact_share(y))  # as dc/dy = 2 y - y^2
 
     def below(self, x: Dual, bound: Dual) -> bool:
         below: bool | None = self.arithmetic.below(x.value, bound.value)
@@ -265,36 +274,39 @@ class RationalFunction(Operators):
     def __init__(self, numerator: Any, denominator: Any = 1) -> None:
         self.numerator, self.denominator = numerator, denominator
 
-    def __neg__(self) -> Self:
-        return type(self)(-self.numerator, self.denominator)
+    def __neg__(self) -> "RationalFunction":
+        return RationalFunction(-self.numerator, self.denominator)
 
-    def __add__(self, other: Any) -> Self:
+    def __add__(self, other: Any) -> "RationalFunction":
         other = self._alike(other)
-        sum_ = self.numerator * other.denominator + other.numerator * self.denominator
-        return type(self)(sum_, self.denominator * other.denominator)
+        numerator = self.numerator * other.denominator + other.numerator * self.denominator
+        return RationalFunction(numerator, self.denominator * other.denominator)
 
-    def __mul__(self, other: Any) -> Self:
+    def __mul__(self, other: Any) -> "RationalFunction":
         other = self._alike(other)
         numerator = self.numerator * other.numerator
-        return type(self)(numerator, self.denominator * other.denominator)
+        return RationalFunction(numerator, self.denominator * other.denominator)
 
-    def __truediv__(self, other: Any) -> Self:
-        other = self._alike(other)
-        if other.numerator == 0:
+    def __truediv__(self, other: Any) -> "RationalFunction":
+        return self * self._alike(other) ** -1
+
+    def __pow__(self, exponent: int) -> "RationalFunction":
+        if exponent >= 0:
+            return RationalFunction(self.numerator**exponent, self.denominator**exponent)
+        if self.numerator == 0:
             raise ZeroDivisionError("division by a polynomial that is zero")
-        return self * type(self)(other.denominator, other.numerator)
-
-    def __pow__(self, exponent: int) -> Self:
-        base, size = (self if exponent >= 0 else 1 / self), abs(exponent)
-        return type(self)(base.numerator**size, base.denominator**size)
+        return RationalFunction(self.denominator, self.numerator) ** -exponent
 
     def __eq__(self, other: object) -> bool:
-        other = self._alike(other)
-        return bool(self.numerator * other.denominator == other.numerator * self.denominator)
+        return bool((self - self._alike(other)).numerator == 0)
 
 
-class RationalFunctions:
-    """Quotients of polynomials in some symbols; a root or a logarithm gets a symbol of its own.
+class RationalFunctions(Arithmetic):
+    """Rational functions of given symbols, of pi, and of roots and logarithms.
+
+    Every root and every logarithm that occurs becomes one more symbol, the same for the same
+    argument. An equality that is found is therefore proven, but relations between irrational
+    numbers, such as sqrt(x)^2 = x, are not known.
 
     >>> ar = RationalFunctions(["x", "y"])
     >>> x, y = ar.symbols["x"], ar.symbols["y"]
@@ -311,7 +323,7 @@ class RationalFunctions:
         symbols = [RationalFunction(symbol, self._one) for symbol in context.gens()]
         self.symbols: Mapping[str, RationalFunction] = dict(zip(names, symbols, strict=False))
         self.pi, *self._free = symbols[len(names) :]
-        self._known: list[tuple[Fraction | None, RationalFunction]] = []
+        self._irrationals: list[tuple[int | None, RationalFunction]] = []
 
     def number(self, value: Fraction | int) -> RationalFunction:
         return RationalFunction(self._one * value.numerator, self._one * value.denominator)
@@ -319,20 +331,18 @@ class RationalFunctions:
     def log(self, x: RationalFunction) -> RationalFunction:
         return self.number(0) if x == 1 else self._symbol(None, x)
 
-    def power(self, x: RationalFunction, exponent: Fraction) -> RationalFunction:
-        if exponent.denominator == 1:
-            return x ** int(exponent)
-        return x if x == 1 else self._symbol(exponent, x)
+    def root(self, x: RationalFunction, degree: int) -> RationalFunction:
+        return x if x == 1 else self._symbol(degree, x)
 
-    def _symbol(self, *irrational: Any) -> RationalFunction:
-        """A symbol for a power of x, or for its logarithm: the same for the same x."""
-        if irrational not in self._known:
-            self._known.append(irrational)
-        return self._free[self._known.index(irrational)]
+    def _symbol(self, degree: int | None, x: RationalFunction) -> RationalFunction:
+        """Return the symbol for the root of x of this degree or, without one, for ln x."""
+        if (degree, x) not in self._irrationals:
+            self._irrationals.append((degree, x))
+        return self._free[self._irrationals.index((degree, x))]
 
     @staticmethod
     def constant(x: RationalFunction) -> Fraction | None:
-        """The number that x is whatever the symbols stand for, or None if it varies with them."""
+        """Return the number that x equals for all values of its symbols, or None if x varies."""
         if x.numerator == 0:
             return Fraction(0)
         value = x.numerator.leading_coefficient() / x.denominator.leading_coefficient()

@@ -1,9 +1,9 @@
-"""Formulas over boxes of inputs, in interval arithmetic: bounds that are proven.
+"""Proven bounds of functions over boxes of inputs, by interval arithmetic.
 
-What is computed here contains every value that a formula takes for inputs in the box. The
-derivatives are enclosed along with it: an input by which the formula is proven to rise or fall all
-over the box is put at its ends, so that the bound is sharp. Where it is too wide to decide a
-question, the box is cut in halves until it decides, or the question stays undecided: never a guess.
+An enclosure contains every value that a function takes for inputs in the box. The derivatives are
+enclosed as well: an input in which the function is proven to be monotone over the whole box is set
+to its ends, which makes the bound sharp. If an enclosure is too wide to decide a question, the box
+is halved again and again. If the budget runs out first, the question stays undecided.
 """
 
 from collections import deque
@@ -18,22 +18,23 @@ from reference.intervals import Intervals
 from reference.printed import Interval
 
 Ends = tuple[Fraction, Fraction]
-"""The lower and the upper end of an interval."""
+"""The lower and the upper end of a closed interval."""
 
 Box = Mapping[str, Ends]
-"""Inputs by name, in SI units."""
+"""The range of each input, by its name, in SI units."""
 
 _INTERVALS = Intervals(30)
-"""Thirty digits: twice a double's, so that the outward rounding never decides a verdict."""
+"""30 digits, about twice as many as a double has: outward rounding never decides a verdict."""
 _DUALS = Duals(_INTERVALS)
 _TANGENTS = Duals(Floats())
 
 
 class Range(msgspec.Struct, frozen=True):
-    """A proven range of a function over a box.
+    """An interval that is proven to contain every value of a function over a box.
 
-    `signs` tells of every input that has a width whether the function is proven to rise (1) or fall
-    (-1) with it all over the box, or not (0); on the `idle` ones it is proven not to depend.
+    `signs` has, for every input that varies in the box, 1 if the function is proven nowhere to
+    decrease as that input increases, -1 if nowhere to increase, and 0 if neither is proven. The
+    function is proven not to depend on the inputs in `idle`.
     """
 
     ends: Ends
@@ -42,12 +43,14 @@ class Range(msgspec.Struct, frozen=True):
 
     @property
     def is_monotone(self) -> bool:
-        """Whether every input is proven to act in one direction; the ends are then attained."""
+        """Whether the function is proven monotone in every input: it then attains both ends."""
         return all(self.signs.values())
 
 
 def enclose(function: Function, box: Box) -> Range:
-    """A proven range of the function over the box, in SI units.
+    """Return a proven range of the function over the box, in SI units.
+
+    Raises ArithmeticError if the function has no value, or no bounded one, somewhere in the box.
 
     >>> box = {"x": (Fraction(1), Fraction(2))}
     >>> [float(end) for end in enclose(lambda ar, x: x / (1 + x), box).ends]
@@ -56,24 +59,23 @@ def enclose(function: Function, box: Box) -> Range:
     wide = [name for name, (low, high) in box.items() if low != high]
     tangent = _tangent(function, box, wide) if wide else None
     if tangent is None:
-        return Range(_plain(function, box), dict.fromkeys(wide, 0))
+        return Range(_plain_range(function, box), dict.fromkeys(wide, 0))
     slopes = {name: tangent.slopes.get(name, _INTERVALS.number(0)) for name in wide}
     signs = {name: _INTERVALS.sign(slope) for name, slope in slopes.items()}
     idle = frozenset(name for name, slope in slopes.items() if _INTERVALS.is_zero(slope))
-    fixed = {name: sign > 0 for name, sign in signs.items() if sign}
-    if not fixed:
-        # Plain interval arithmetic, cut to what the value in the middle and the slopes allow.
+    if not any(signs.values()):
+        # Intersect plain interval arithmetic with the mean-value form about the middle.
         low, high = _INTERVALS.ends(tangent.value)
-        below, above = _plain(function, _points(_middle(box)))
+        below, above = _plain_range(function, _points(_middle(box)))
         for name, slope in slopes.items():
             reach = max(map(abs, _INTERVALS.ends(slope))) * (box[name][1] - box[name][0]) / 2
             below, above = below - reach, above + reach
         return Range((max(low, below), min(high, above)), signs)
     lower, upper = (
-        {**box, **_points({name: box[name][rises == top] for name, rises in fixed.items()})}
-        for top in (False, True)
+        {**box, **_points({name: box[name][sign == side] for name, sign in signs.items() if sign})}
+        for side in (-1, 1)
     )
-    # An input that is put at an end may free another's sign; with all at ends the bound is sharp.
+    # With some inputs at an end, the sign of another derivative may become known: hence recursion.
     return Range((enclose(function, lower).ends[0], enclose(function, upper).ends[1]), signs, idle)
 
 
@@ -81,7 +83,8 @@ def _points(point: Mapping[str, Fraction]) -> Box:
     return {name: (value, value) for name, value in point.items()}
 
 
-def _plain(function: Function, box: Box) -> Ends:
+def _plain_range(function: Function, box: Box) -> Ends:
+    """Return a proven range of the function over the box, without use of its derivatives."""
     with _INTERVALS.working():
         numbers = {name: _INTERVALS.interval(*ends) for name, ends in box.items()}
         value = function(_INTERVALS, **numbers)
@@ -89,9 +92,9 @@ def _plain(function: Function, box: Box) -> Ends:
 
 
 def _tangent(function: Function, box: Box, wide: list[str]) -> Dual | None:
-    """Numbers that contain the value, and every derivative, all over the box.
+    """Return enclosures, over the box, of the function and its derivatives by the `wide` inputs.
 
-    None where the function may jump: then it has no derivatives.
+    None if the function may jump in the box, or if it may divide by zero there.
     """
     with _INTERVALS.working():
         numbers = {}
@@ -110,10 +113,10 @@ def _middle(box: Box) -> dict[str, Fraction]:
 
 
 class Solutions(msgspec.Struct, frozen=True):
-    """The values of one input, within a search, for which a function meets its target.
+    """The values of one input, in the range `search`, for which a function lies in its target.
 
-    `inner`: intervals all of whose values are proven to; `outer`: those outside which every value
-    of the search is proven not to. Empty `outer`: proven that none does.
+    Every value in the intervals `inner` is proven to be a solution, and every value of the search
+    outside the intervals `outer` is proven to be none. An empty `outer` proves that there is none.
     """
 
     search: Ends
@@ -122,12 +125,12 @@ class Solutions(msgspec.Struct, frozen=True):
 
     @property
     def reaches_an_end(self) -> bool:
-        """Whether the solutions may go on beyond the search."""
+        """Whether there may be solutions up to an end of the search, and so beyond it."""
         low, high = self.search
         return any(part[0] == low or part[1] == high for part in self.outer)
 
     def admits(self, value: Fraction) -> bool:
-        """Whether the value is proven to be a solution."""
+        """Return whether a value is proven to be a solution."""
         return any(low <= value <= high for low, high in self.inner)
 
 
@@ -139,12 +142,11 @@ def solve(
     budget: int = 200,
     others: Mapping[str, Fraction] = {},
 ) -> Solutions:
-    """The values of one input, the others given, for which the function falls into the target.
+    """Return the values of one input, the others given, for which the function lies in the target.
 
-    Parts of the search on which the function only rises or only falls are solved by bisection, the
-    others are cut in halves, until the budget of parts runs out; what is still undecided then
-    belongs to the outer intervals. So does what is left of parts on some of which the function has
-    no value.
+    A part of the search on which the function is proven monotone is solved by bisection; any other
+    undecided part is halved. At most `budget` parts are examined. What is then undecided belongs to
+    the outer intervals, as do parts on which the function has no value somewhere.
 
     >>> search, target = (Fraction(0), Fraction(9)), Interval(Fraction(2), Fraction(3))
     >>> found = solve(lambda ar, x, y: x * y, "x", search, target, others={"y": Fraction(2)})
@@ -155,12 +157,12 @@ def solve(
     inner, outer, given = list[Ends](), list[Ends](), _points(others)
 
     def value(x: Fraction) -> Ends:
-        return _plain(function, {**given, name: (x, x)})
+        return _plain_range(function, {**given, name: (x, x)})
 
-    for tried, part in enumerate(parts, 1):  # halves are added while there is a budget
+    for tried, part in enumerate(parts, 1):  # the list grows while there is budget left
         try:
             range_ = enclose(function, {**given, name: part})
-        except ArithmeticError:  # no value, or no bounded one, on some of it
+        except ArithmeticError:
             range_ = None
         if range_ is None or not (range_.is_monotone or target.decides(*range_.ends)):
             middle = (part[0] + part[1]) / 2
@@ -172,25 +174,25 @@ def solve(
             rises = range_.signs[name] > 0
             first, last = (_crossing(value, part, target, rises, end) for end in (0, 1))
             outer.append((first[0], last[1]))
-            within = first[1], last[0]
-            if within[0] <= within[1] and all(target.encloses(*value(x)) for x in within):
-                inner.append(within)
-    return Solutions(search, _merged(inner), _merged(outer))
+            between = first[1], last[0]
+            if between[0] <= between[1] and all(target.encloses(*value(x)) for x in between):
+                inner.append(between)
+    return Solutions(search, _union(inner), _union(outer))
 
 
 def _crossing(
     value: Callable[[Fraction], Ends], part: Ends, target: Interval, rises: bool, end: int
 ) -> Ends:
-    """Between which inputs a rising or falling function enters the target (end 0) or leaves it."""
+    """Bracket the input at which a monotone function enters the target (end 0) or leaves it (1)."""
     at_lower = rises == (end == 0)
     goal = target.lower if at_lower else target.upper
     least, greatest = value(part[end])
-    # At the end of the part the target may be entered or left already.
+    # The function may lie in the target up to this end of the part.
     if goal is None or (least > goal if at_lower else greatest < goal):
         return part[end], part[end]
-    (low, high), width = part, (part[1] - part[0]) / 2**44  # finer than any page shows
+    (low, high), width = part, (part[1] - part[0]) / 2**44  # finer than any digits that are shown
     while high - low > width:
-        # Not in the middle: a goal that is hit exactly cannot be decided.
+        # Not the exact middle, where a simple function might hit the goal and decide nothing.
         x = (low + (high - low) * Fraction(49, 100)).limit_denominator(10**30)
         below, above = value(x)
         if below <= goal <= above or not low < x < high:
@@ -202,7 +204,8 @@ def _crossing(
     return low, high
 
 
-def _merged(parts: list[Ends]) -> tuple[Ends, ...]:
+def _union(parts: list[Ends]) -> tuple[Ends, ...]:
+    """Return the union of intervals as disjoint ones, sorted."""
     merged: list[Ends] = []
     for low, high in sorted(parts):
         if merged and merged[-1][1] >= low:
@@ -213,14 +216,15 @@ def _merged(parts: list[Ends]) -> tuple[Ends, ...]:
 
 
 Constraint = tuple[Function, Interval]
-"""A function of the inputs in a box, and the interval that its value must fall in."""
+"""A function of the inputs in a box, and the interval in which its value must lie."""
 
 
 def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
-    """How far one input can range at most while the others may be anywhere in the box.
+    """Return bounds of one input outside which no point of the box satisfies all constraints.
 
-    Every constraint alone bounds the input, with all others at the ends that suit it best; these
-    are the tightest of such bounds. No value beyond them satisfies all constraints.
+    Each constraint that is proven monotone in every input bounds this input by itself: the others
+    are set to those ends of the box that allow it the most extreme value. The result is the
+    tightest of these bounds; the true range may be narrower.
 
     >>> product = (lambda ar, x, y: x * y, Interval(Fraction(2), Fraction(3)))
     >>> box = {"x": (Fraction(0), Fraction(9)), "y": (Fraction(1), Fraction(2))}
@@ -231,14 +235,14 @@ def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
     for function, target in constraints:
         try:
             range_ = enclose(function, box)
-        except ArithmeticError:  # no value, or no bounded one, on some of it: it bounds nothing
+        except ArithmeticError:  # it is undefined in part of the box, and bounds nothing
             continue
         for top in (0, 1) if range_.is_monotone else ():
-            # To let this input go far up, those that act like it must be low, the others high.
+            # For this input's greatest value, inputs with the same sign are low and others high.
             alike = {key: range_.signs.get(key, 1) == range_.signs.get(name, 1) for key in box}
             others = {key: ends[alike[key] != top] for key, ends in box.items() if key != name}
-            if target.encloses(*_plain(function, _points({**others, name: outer[top]}))):
-                continue  # it bounds the input farther out
+            if target.encloses(*_plain_range(function, _points({**others, name: outer[top]}))):
+                continue  # the constraint holds even at the present bound
             if beyond := solve(function, name, box[name], target, others=others).outer:
                 bound = (beyond[0][0], beyond[-1][1])[top]
                 outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
@@ -248,71 +252,73 @@ def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
 def satisfying(
     constraints: Sequence[Constraint], box: Box, budget: int = 1000
 ) -> tuple[bool | None, dict[str, Fraction] | None]:
-    """Whether some point of the box satisfies every constraint, with such a point if one is known.
+    """Return whether some point of the box satisfies every constraint, and such a point.
 
-    None if the budget of boxes runs out. Constraints are tried in their order: cheap and narrow
-    ones first save time. In each box one point is tried, where the constraints' tangents aim.
+    The answer is False only where this is proven; it is None if the budget of boxes runs out.
+    Boxes are halved until each is excluded by a constraint. In each box one point is tried, which
+    the linearized constraints suggest. Constraints are tested in their order: it saves time to put
+    cheap and narrow ones first.
     """
     queue = deque([(box, list(constraints))])
     sizes = {name: max(map(abs, ends)) or 1 for name, ends in box.items()}
     for _ in range(budget):
+        if not queue:
+            break
         part, remaining = queue.popleft()
         undecided = _undecided(remaining, part)
         if undecided is None:
-            if not queue:
-                return False, None
             continue
-        point = _aimed(undecided, part)
+        point = _candidate(undecided, part)
         if _undecided(undecided, _points(point)) == []:
             return True, point
-        # Cut in two across the side that is widest relative to the size of its input.
+        # Halve the input whose range is widest relative to its largest magnitude in the whole box.
         name = max(part, key=lambda name: (part[name][1] - part[name][0]) / sizes[name])
         (low, high), middle = part[name], _middle(part)[name]
         queue += [({**part, name: half}, undecided) for half in ((low, middle), (middle, high))]
-    return None, None
+    return (None if queue else False), None
 
 
-def _aimed(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
-    """A point of the box where the constraints probably hold, by their tangents in its middle.
+def _candidate(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:
+    """Return a point of the box at which the constraints, linearized in its middle, may hold.
 
-    In doubles, as this proves nothing. From the middle the point is moved into one constraint after
-    the other by the shortest way, in coordinates that are measured in widths of the box.
+    Doubles suffice, as this proves nothing. From the middle, the point is projected onto one
+    linearized constraint after the other, in coordinates scaled by the widths of the box.
     """
-    middle, moved = _middle(box), dict.fromkeys(box, 0.0)
+    middle, shift = _middle(box), dict.fromkeys(box, 0.0)
     widths = {name: high - low for name, (low, high) in box.items()}
     numbers = {name: _TANGENTS.variable(float(value), name) for name, value in middle.items()}
-    planes = []
+    linearized = []
     for function, target in constraints:
         try:
             dual = function(_TANGENTS, **numbers)
         except (ArithmeticError, TypeError, ValueError):
-            return middle  # no value there, or only a complex one
+            return middle  # the function has no value there, or a complex one
         if isinstance(dual, Fraction):
-            continue  # the same everywhere
+            continue  # the function is constant
         low = -inf if target.lower is None else float(target.lower)
         high = inf if target.upper is None else float(target.upper)
         margin = 0.0 if isinf(high - low) else (high - low) / 100
         slopes = {name: slope * float(widths[name]) for name, slope in dual.slopes.items()}
         if steepness := sum(slope * slope for slope in slopes.values()):
-            planes.append((dual.value, slopes, steepness, low + margin, high - margin))
-    for _ in range(30):  # more often moves the point too little to matter
-        for value, slopes, steepness, low, high in planes:
-            reached = value + sum(slope * moved[name] for name, slope in slopes.items())
-            short = max(low - reached, 0.0) + min(high - reached, 0.0)
-            for name, slope in slopes.items() if short else ():
-                moved[name] = min(0.49, max(-0.49, moved[name] + short * slope / steepness))
-    return {name: value + widths[name] * Fraction(moved[name]) for name, value in middle.items()}
+            linearized.append((dual.value, slopes, steepness, low + margin, high - margin))
+    for _ in range(30):  # further rounds would hardly move the point
+        for value, slopes, steepness, low, high in linearized:
+            reached = value + sum(slope * shift[name] for name, slope in slopes.items())
+            missing = max(low - reached, 0.0) + min(high - reached, 0.0)
+            for name, slope in slopes.items() if missing else ():
+                shift[name] = min(0.49, max(-0.49, shift[name] + missing * slope / steepness))
+    return {name: value + widths[name] * Fraction(shift[name]) for name, value in middle.items()}
 
 
 def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] | None:
-    """The constraints not proven to hold all over the box; None if one fails all over it."""
+    """Return the constraints not proven to hold all over the box; None if one fails all over it."""
     undecided = []
     for function, target in constraints:
         try:
-            ends = _plain(function, box)  # what it decides needs no derivatives
+            ends = _plain_range(function, box)  # much faster than with derivatives
             if not target.decides(*ends):
                 ends = enclose(function, box).ends
-        except ArithmeticError:  # no value, or no bounded one, on some of it
+        except ArithmeticError:  # undefined or unbounded in part of the box
             undecided.append((function, target))
             continue
         if target.excludes(*ends):

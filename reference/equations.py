@@ -1,12 +1,12 @@
 r"""The report's equations, read from its text as they are printed.
 
-An equation becomes a tree (`Node`), so that what the report prints is what is computed, checked and
-shown: in numbers of any arithmetic (`evaluate`), in dimensions (`dimension`), as text or MathML
-(`rendered`).
+Each side of an equation is read into a tree of `Node`s. The same tree is evaluated in any
+arithmetic (`evaluate`), checked for consistent dimensions (`dimension`), and shown as text or
+MathML (`rendered`), so that all of this is done with what the report prints.
 
-How the text is read: a product written without a space binds before a fraction bar, one with a
-space after it. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is (1/3) pi X^2, and
-"L/D \rho_p/\rho_t" is (L/D)(rho_p/rho_t).
+A product written without a space binds more tightly than a fraction bar; one written with a space
+binds as tightly as the bar, from left to right. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is
+(1/3) pi X^2, and "L/D \rho_p/\rho_t" is ((L/D) rho_p)/rho_t.
 """
 
 import re
@@ -23,18 +23,19 @@ from reference.units import Dimension, DimensionError
 
 
 class EquationError(ValueError):
-    """Text that cannot be read as an equation; says from where on it makes no sense."""
+    """The text cannot be read as an equation; the message says where it stops making sense."""
 
 
 class NoValueError(EquationError, ArithmeticError):
-    """What an equation has where one of its symbols has no value."""
+    """The equation cannot be evaluated, as one of its symbols has no value."""
 
 
 class Node(msgspec.Struct, frozen=True):
-    """A part of an equation.
+    """An expression.
 
-    `kind` is "number" (with `value`, and its text as `name`), "symbol" (with `name`), or what is
-    done with `parts`: "sum", "negative", "product", "quotient", "power", "ln", "log".
+    Its `kind` is "number" (with its `value`, and its text as `name`), "symbol" (with its `name`),
+    or the operation on its `parts`: "sum", "negative", "product", "quotient", "power", or one of
+    NAMED_FUNCTIONS.
     """
 
     kind: str
@@ -48,20 +49,23 @@ Sides = Mapping[str, tuple[Node, ...]]
 
 
 NAMED_FUNCTIONS = ("ln", "log", "expm1", "crater", "normal", "rounded")
-"""The report has the first two. The others are for formulas of ours: e^x - 1, X/R of a crater's
-CV/PV, the share of a normal distribution below x, and x to three digits."""
+"""The report has the first two. Formulas of the ledger and the findings also have e^x - 1, a
+crater's X/R for a CV/PV, the share of a normal distribution below x, and x to three digits."""
 
 
 _OPERATORS = {
     "+": ("sum", 1), "-": ("sum", 1), "/": ("quotient", 2), " ": ("product", 2),
     "": ("product", 3), "^": ("power", 4),
 }  # fmt: skip
-"""What operators make and how tightly they bind; products are written with a space or without."""
+"""The kind of node that each operator makes, and how tightly it binds.
+
+A product is written with a space or without one.
+"""
 _FACTORS = {"number", "symbol", "function", "fraction"}
 
 
 class _Reader:
-    """Reads one expression by the precedence of its operators."""
+    """A parser of one expression, by the precedence of its operators."""
 
     def __init__(self, text: str, symbols: Mapping[str, str]) -> None:
         self.text, self.symbols, self.at = text, symbols, 0
@@ -79,13 +83,13 @@ class _Reader:
 
     @property
     def next(self) -> tuple[str, str, bool]:
-        """The kind and the text of what comes next, and whether a space stands before it."""
+        """The kind and the text of the next token, and whether there is a space before it."""
         token = self.tokens[self.at]
         kind = str(token.lastgroup)
         return kind, token[kind], bool(token["space"])
 
     def error(self) -> EquationError:
-        """The complaint that what comes next cannot stand there."""
+        """Return the error that the next token cannot stand there."""
         rest = self.text[self.tokens[self.at].end("space") :]
         problem = f"cannot read {rest!r}" if rest else "something is missing"
         return EquationError(f"{problem} at the end of {self.text!r}")
@@ -102,7 +106,7 @@ class _Reader:
         self.at += 1
 
     def expression(self, binding: int = 0) -> Node:
-        """What follows, as far as its operators bind more tightly than `binding`."""
+        """Read an expression up to the first operator that binds no more tightly than `binding`."""
         if binding == 0 and self.next[:2] == ("sign", "-"):
             self.at += 1
             left = Node("negative", (self.expression(1),))
@@ -119,14 +123,14 @@ class _Reader:
         return left
 
     def operator(self) -> str | None:
-        """The operator that comes next, a product where a factor does; None at the end."""
+        """Return the next operator, which is a product before a factor; None if there is none."""
         kind, text, spaced = self.next
         if kind in _FACTORS or text == "(":
             return " " if spaced else ""
         return text if text in ("+", "-", "/") or (text == "^" and not spaced) else None
 
     def operand(self, brackets: str) -> Node:
-        """What stands in one of these brackets, or a factor without any."""
+        """Read an expression in brackets that open with one of these signs, or a single factor."""
         kind, text, spaced = self.next
         if spaced and "{" in brackets:  # no space stands before an exponent
             raise self.error()
@@ -145,9 +149,9 @@ class _Reader:
 
 
 def read_expression(text: str, symbols: Mapping[str, str]) -> Node:
-    r"""One side of an equation. Raises EquationError for what cannot be read.
+    r"""Read one side of an equation. Raises EquationError for a text that is none.
 
-    `symbols` maps what the report writes to a symbol's name.
+    `symbols` maps each text that stands for a symbol to the symbol's name.
 
     >>> rendered(read_expression(r"2E_t/3Y_t", {"E_t": "E", "Y_t": "Y"}), {"E": "E", "Y": "Y"})
     '(2 E)/(3 Y)'
@@ -157,7 +161,7 @@ def read_expression(text: str, symbols: Mapping[str, str]) -> Node:
 
 @lru_cache(2048)
 def _read(text: str, symbols: tuple[tuple[str, str], ...]) -> Node:
-    """Cached, as the same misprint of an equation is tried for every claim that rests on it."""
+    """Cached, as the audit tries the same misprint for every claim that uses the equation."""
     reader = _Reader(text, dict(symbols))
     node = reader.expression()
     if reader.next[0] != "end":
@@ -166,7 +170,7 @@ def _read(text: str, symbols: tuple[tuple[str, str], ...]) -> Node:
 
 
 def read_equation(text: str, symbols: Mapping[str, str]) -> tuple[Node, ...]:
-    r"""The sides of an equation; a first one that the report leaves out is left out here.
+    r"""Read the sides of an equation, except an empty one, as where the report omits the first.
 
     >>> len(read_equation(r"F_r = \pi a^2 R_t", {w: w for w in ("F_r", r"\pi", "a", "R_t")}))
     2
@@ -178,9 +182,11 @@ def read_equation(text: str, symbols: Mapping[str, str]) -> tuple[Node, ...]:
 
 
 def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
-    r"""The value of an expression in an arithmetic, for values of its symbols in SI units.
+    r"""Return the value of an expression in an arithmetic, given the values of its symbols in SI.
 
-    A symbol that is an exponent needs a Fraction.
+    A Fraction among the values is converted to the arithmetic. A symbol in an exponent needs one.
+    Raises NoValueError for a symbol without a value, and EquationError for an exponent that is not
+    rational.
 
     >>> from reference.arithmetic import Reals
     >>> expression = read_expression(r"7/3 \ln(\alpha)", {r"\alpha": "alpha"})
@@ -198,9 +204,7 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
         base, power = node.parts[0], _exponent(node.parts[1], values)
         if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
             base, power = base.parts[0], power * _exponent(base.parts[1], values)
-        value = evaluate(base, ar, values)
-        is_natural = power.denominator == 1 and power > 0
-        return value ** int(power) if is_natural else ar.power(value, power)
+        return ar.power(evaluate(base, ar, values), power)
     numbers = [evaluate(part, ar, values) for part in node.parts]
     if node.kind in _OPERATIONS:
         return _OPERATIONS[node.kind](ar, *numbers)
@@ -218,9 +222,7 @@ _OPERATIONS: Mapping[str, Callable[..., Any]] = {
 
 
 def _exponent(node: Node, values: Mapping[str, Any]) -> Fraction:
-    """An exponent: a number, or a symbol whose value is given as a Fraction."""
-    if node.kind == "number":
-        return node.value
+    """Return the value of an exponent, whose symbols must have Fractions as values."""
     known = {name: value for name, value in values.items() if isinstance(value, Fraction)}
     try:
         return Fraction(evaluate(node, Rationals(), known))
@@ -229,7 +231,7 @@ def _exponent(node: Node, values: Mapping[str, Any]) -> Fraction:
 
 
 class _Dimensions:
-    """The arithmetic of dimensions, in which every number is dimensionless."""
+    """An arithmetic of dimensions, in which every number is dimensionless."""
 
     pi = Dimension()
     number = staticmethod(lambda _: Dimension())
@@ -242,19 +244,19 @@ class _Dimensions:
 
 
 def dimension(node: Node, units: Mapping[str, Dimension | Fraction]) -> Dimension:
-    """The dimension of an expression, given those of its symbols, and the values of exponents.
+    """Return an expression's dimension from those of its symbols and the values of its exponents.
 
-    Raises DimensionError where a sum or an argument makes no sense.
+    Raises DimensionError for a sum of different dimensions or the logarithm of a dimension.
     """
     result: Dimension = evaluate(node, _Dimensions(), units)
     return result
 
 
 class Notation(msgspec.Struct, frozen=True):
-    """How the parts of an expression are put together; by default, as plain text.
+    """The markup of expressions; by default, plain text.
 
-    `symbol` is also for numbers. `stroke`: how tightly what is over and under a fraction bar must
-    bind to go without brackets.
+    `symbol` also formats numbers, and `row` what is to be kept together. `stroke` is how tightly a
+    numerator and a denominator must bind to need no brackets.
     """
 
     symbol: Callable[[str], str] = str
@@ -265,13 +267,12 @@ class Notation(msgspec.Struct, frozen=True):
     row: Callable[[str], str] = str
     plus: str = " + "
     less: str = " - "
-    minus: str = "-"
     times: str = " "
     stroke: tuple[int, int] = (3, 4)
 
 
 def _mathml_symbol(shown: str) -> str:
-    """A symbol or a number in MathML; after an underscore comes a subscript."""
+    """Return a number or a symbol in MathML; what follows an underscore is a subscript."""
     if shown[0].isdigit():
         return f"<mn>{shown}</mn>"
     name, _, below = shown.partition("_")
@@ -288,7 +289,6 @@ MATHML = Notation(
     row="<mrow>{}</mrow>".format,
     plus="<mo>+</mo>",
     less="<mo>\N{MINUS SIGN}</mo>",
-    minus="<mo>\N{MINUS SIGN}</mo>",
     times="<mo>\N{INVISIBLE TIMES}</mo>",
     stroke=(0, 0),
 )
@@ -296,7 +296,7 @@ _TIGHTNESS = {"sum": 0, "negative": 1, "product": 2, "quotient": 3, "power": 4}
 
 
 def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -> str:
-    """The expression as text; `shown` gives what stands for a symbol.
+    """Return an expression as text in a notation; `shown` maps each symbol's name to its text.
 
     >>> rendered(read_expression("x/(D + 0.5)", {"x": "x", "D": "D"}), {"x": "X", "D": "8"})
     'X/(8 + 0.5)'
@@ -317,7 +317,7 @@ def rendered(node: Node, shown: Mapping[str, str], notation: Notation = PLAIN) -
         case "number" | "symbol":
             return notation.symbol(node.name if node.kind == "number" else shown[node.name])
         case "negative":
-            return notation.row(notation.minus + part(parts[0], 2))
+            return notation.row(notation.less.strip() + part(parts[0], 2))
         case "sum":
             return notation.row(part(parts[0], 0) + "".join(map(added, parts[1:])))
         case "product":

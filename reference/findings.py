@@ -1,8 +1,8 @@
-"""What is asserted of the report besides its claims: findings, each with numbers as evidence.
+"""The findings: what is asserted of the report besides its claims, each with its evidence.
 
-A finding is a text of `report/findings.toml`. Every number in it is a claim's printed text, a piece
-of evidence that the audit computes anew, or a step of arithmetic that is calculated again: if one
-no longer agrees, the finding says so. The head of the file says what each key means.
+The findings are texts in `report/findings.toml`, whose head explains the keys. Every number in a
+text is a claim's printed number, a piece of evidence that the audit computes again, or a line of
+arithmetic that is calculated again. If one of them no longer agrees, the finding says so.
 """
 
 import operator
@@ -29,7 +29,7 @@ _RELATIONS: Mapping[str, Callable[[Fraction, Fraction], bool]] = {
 
 
 class Assertion(Entry, frozen=True):
-    """One piece of evidence: what its number is and how the computed one must stand to the text."""
+    """A piece of evidence: what its number means, and which computed numbers agree with it."""
 
     says: str
     means: str
@@ -46,16 +46,16 @@ class Assertion(Entry, frozen=True):
 
     @property
     def text(self) -> str:
-        """The number, or yes or no."""
+        """The asserted number, or the asserted outcome: "yes" or "no"."""
         return self.says.rpartition(" ")[2]
 
     @property
     def is_outcome(self) -> bool:
-        """Whether it is no number, but yes or no."""
+        """Whether an outcome is asserted, not a number."""
         return self.text in ("yes", "no")
 
     def holds(self, computed: Fraction | float | bool) -> bool:
-        """Whether the computed number (in `unit`) or outcome is as asserted.
+        """Return whether the computed number (in `unit`) or outcome is as asserted.
 
         >>> ratio = Assertion(says=">= 1.147", means="least ratio")
         >>> ratio.holds(1.1476), ratio.holds(1.1469)
@@ -71,9 +71,9 @@ class Assertion(Entry, frozen=True):
 
 
 class Finding(Entry, frozen=True, kw_only=True):
-    """One finding as asserted, its texts with the printed and the asserted numbers in them.
+    """A finding; `filled` puts the numbers into its texts.
 
-    `steps` are the lines of arithmetic in its texts, and whether they hold.
+    `steps` maps each line of arithmetic in the texts to whether it holds.
     """
 
     id: str
@@ -94,9 +94,9 @@ class Finding(Entry, frozen=True, kw_only=True):
 
 @cache
 def load() -> Mapping[str, Finding]:
-    """The findings on the report, the weightiest first.
+    """Return the findings on the report by id, the most important first.
 
-    The one called "headline" says in a sentence what came out.
+    The one called "headline" is a summary in one sentence.
 
     >>> list(load())[:2]
     ['headline', 'frank-zook-pair']
@@ -106,7 +106,7 @@ def load() -> Mapping[str, Finding]:
 
 
 def filled(entry: Finding) -> Finding:
-    """A finding of the file with the numbers in its texts. Raises KeyError for an unknown name."""
+    """Return a finding with numbers in place of {names}. Raises KeyError for an unknown name."""
     texts, steps = dict[str, str](), dict[str, bool]()
     for key in ("title", "statement", "by_hand", "settle"):
         text = " ".join(getattr(entry, key).split())
@@ -117,7 +117,7 @@ def filled(entry: Finding) -> Finding:
 
 
 def _number(name: str, unit: str | None, entry: Finding) -> str:
-    """What stands for {evidence}, {claim}, {source}, or {claim:unit} in another unit."""
+    """Return the text for {evidence}, {claim} or {source}, or for {claim:unit} in that unit."""
     if name in entry.evidence:
         return entry.evidence[name].text
     claims, sources = load_ledger().claims, load_ledger().sources
@@ -127,16 +127,17 @@ def _number(name: str, unit: str | None, entry: Finding) -> str:
 
 
 def _holds(text: str) -> bool:
-    """Whether a line of arithmetic such as "2/3 * 3 = 2.0" holds, calculated again."""
+    """Calculate a line of arithmetic such as "2/3 * 3 = 2.0" again; return whether it holds."""
     left, _, right = text.rpartition("=")
     value = evaluate(expression(left)[0], _REALS, {})
+    # Five digits fewer than were computed: a result that is exact must not miss by a rounding.
     computed = Fraction(_REALS.context.nstr(value, 25))
     return parse(right.strip()).interval().contains(computed)
 
 
 @cache
 def expression(text: str) -> tuple[Node, set[str]]:
-    """A line of arithmetic, and the names of the values in it. Raises EquationError.
+    """Read a line of arithmetic, and the names of the values in it. Raises EquationError.
 
     >>> sorted(expression("2 * a1-radius/cth.diameter - ln(3)")[1])
     ['a1-radius', 'cth.diameter']

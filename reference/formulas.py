@@ -1,13 +1,14 @@
-"""What the ledger says in the report's notation: computations in any arithmetic, and derivations.
+"""The ledger's computations, in any arithmetic, and its derivations of the printed equations.
 
-A formula has the report's symbols and names for sides of printed equations, its premises. Where the
-report prints a formula, it is the printed one that is evaluated, its constants included. Inputs are
-in SI units; exponents, and results that are exact in rational numbers, are Fractions.
+A computation's formula is written in the report's notation. It uses the names of its inputs and of
+its premises, which are sides of printed equations: where the report prints a formula, the printed
+one is evaluated, with its constants. Inputs are in SI units. Exponents, and results that are known
+exactly, are Fractions.
 
-A check of a derivation compares two quotients of polynomials, made from the equation as it is
-printed and from what it must follow from: they are equal for all values of the symbols or they are
-not. To integrate, a printed solution is differentiated and put in. Premises are geometry (a plane
-cuts a sphere), Newton's law, Bernoulli's, and earlier equations of the report where it says that it
+A derivation compares the printed equation with what must follow from its premises. Both are
+quotients of polynomials, and they are equal for all values of the symbols or they are not. An
+integration is checked by differentiating the printed solution. Premises are geometry (a plane cuts
+a sphere), Newton's and Bernoulli's laws, and earlier equations of the report where it says that it
 uses them.
 """
 
@@ -26,15 +27,18 @@ from reference.printed import Place
 from reference.units import unit_dimension
 
 Names = Mapping[str, str]
-"""How symbols and premises are written, and what they are called."""
+"""The names of symbols and premises, by the texts that stand for them."""
 
 
 class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
-    """A table of a TOML file; keys that it does not know are refused."""
+    """A table of a TOML file; an unknown key is an error."""
 
 
 class Side(Entry, frozen=True, kw_only=True):
-    """A side of an equation, or its slope by a symbol, with something put in for its symbols."""
+    """A side of an equation (by index), or its derivative by the symbol `slope`.
+
+    `put` maps symbols to the expressions that replace them.
+    """
 
     side: int = -1
     put: dict[str, str] = {}
@@ -42,20 +46,20 @@ class Side(Entry, frozen=True, kw_only=True):
 
 
 class Premise(Side, frozen=True):
-    """What another equation is derived from."""
+    """A side of an equation that a computation or a derivation starts from."""
 
     equation: str
 
 
 class Condition(Side, frozen=True):
-    """What must hold of an equation, so that it follows from its premises."""
+    """A condition under which an equation follows from its premises: what its side `equals`."""
 
     says: str
     equals: str
 
 
 class Equation(Entry, frozen=True, eq=False):
-    """An [[equation]], and where it stands."""
+    """An [[equation]] of the ledger, with its place in the report."""
 
     id: str
     title: str
@@ -68,7 +72,7 @@ class Equation(Entry, frozen=True, eq=False):
 
 
 class Computation(Entry, frozen=True, eq=False):
-    """A [[computation]]: what it computes, and its formula or, without one, that of FUNCTIONS."""
+    """A [[computation]] of the ledger; one without a formula is a function in FUNCTIONS."""
 
     name: str
     summary: str
@@ -80,14 +84,14 @@ class Computation(Entry, frozen=True, eq=False):
 
 
 def _value(text: str, names: Names, ar: Any, known: Mapping[str, Any]) -> Any:
-    """The value of an expression; a known name alone stays as it is, for exact exponents."""
+    """Return an expression's value; a known name keeps its value, which may be an exponent's."""
     return known[text] if text in known else evaluate(read_expression(text, names), ar, known)
 
 
 def _side(
     entry: Side, sides: tuple[Node, ...], names: Names, ar: Any, known: Mapping[str, Any]
 ) -> Number:
-    """A side of an equation, or its slope, at the known values and those put in for symbols."""
+    """Return a side of an equation, or its derivative, at the `known` values of the symbols."""
     side = sides[entry.side]
     put = {symbol: _value(text, names, ar, known) for symbol, text in entry.put.items()}
     values = {**known, **put}
@@ -103,7 +107,7 @@ def _side(
 
 
 def function_of(computation: Computation, sides: Sides, names: Iterable[str]) -> Function:
-    """A computation, given the sides of all equations, as a function of inputs with these names."""
+    """Return a computation as a function of an arithmetic and of inputs with these names."""
     if computation.formula is None:
         return FUNCTIONS[computation.name]
     premises = computation.premises
@@ -131,17 +135,16 @@ FUNCTIONS: Mapping[str, Function] = {
     **{f"row_{column}": partial(_cell, column) for column in Row._fields},
     "final_sheet_depth": sheet_depth,
 }
-"""Computations that cannot be written in the report's notation."""
+"""The computations that cannot be written in the report's notation."""
 
 
 # Derivations
 
 
 class Check(msgspec.Struct, frozen=True):
-    """One step of a derivation: what must hold, and whether it does.
+    """The outcome of one condition of a derivation: what must hold, and whether it does.
 
-    `factor` is the number by which the printed side differs from the derived one, where it is
-    nothing but a number.
+    `factor` is the printed over the derived side where they differ by a constant number.
     """
 
     says: str
@@ -150,20 +153,19 @@ class Check(msgspec.Struct, frozen=True):
 
 
 def derive(equation: Equation, sides: Sides, written: Names) -> Iterator[Check]:
-    """Every check of one equation, given the sides of all, one by one.
+    """Yield the outcome of every check of an equation, given the sides of all equations.
 
-    `written` maps what the report writes to a symbol's name. Raises ZeroDivisionError, ValueError
-    or EquationError where what is printed makes no sense as a quotient of polynomials.
+    `written` maps the texts of the report's symbols to their names. Raises ZeroDivisionError,
+    ValueError or EquationError if a printed side is no quotient of polynomials.
     """
     ar = RationalFunctions(sorted({*written.values()} - {"pi"}))
     names = {**written, **{key: key for key in equation.premises}}
     for check in equation.checks:
         relation, bound = check.equals[0], check.equals[1:]
-        if relation in "<>":  # tried in numbers, at those put in and all others at 1
+        if relation in "<>":  # tried in doubles, with every symbol at 1 that is not put in
             ones = dict.fromkeys(ar.symbols, 1.0)
-            value = _side(check, sides[equation.id], names, Floats(), ones)
-            holds = value < float(bound) if relation == "<" else value > float(bound)
-            yield Check(check.says, holds)
+            excess = _side(check, sides[equation.id], names, Floats(), ones) - float(bound)
+            yield Check(check.says, excess < 0 if relation == "<" else excess > 0)
             continue
         premises = {
             key: _side(premise, sides[premise.equation], names, ar, ar.symbols)

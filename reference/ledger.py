@@ -1,8 +1,8 @@
-"""The ledger: every number and equation that the report prints, placed in its text.
+"""The ledger: every number and equation that the report prints, located in its text.
 
-What each key of the files of `reference/report` means is said at their heads. Reading them checks
-what each entry must have and that its quote stands in the report once; that entries fit each other
-(names, units, kinds) is held by the tests of the shipped files.
+The comment at the head of each TOML file of `reference/report` explains its keys. Loading a file
+checks that every entry has the keys it needs and that its quote occurs in the report exactly once.
+The tests of the shipped files check that entries agree with each other (names, units, kinds).
 """
 
 import re
@@ -26,7 +26,7 @@ from reference.printed import Interval, Place, Printed, Rounding, parse, place_o
 from reference.units import Dimension, raised, to_si, unit_dimension
 
 INFERRED = "inferred:"
-"""What stands before the id of an input that the report does not print."""
+"""The prefix of the id of an input that the report does not print."""
 
 Kind = Literal[
     "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
@@ -35,7 +35,7 @@ Kind = Literal[
 
 
 def shown(text: str) -> str:
-    r"""Printed text as a page shows it, without the marks of LaTeX.
+    r"""Return printed text as it is shown to readers, without LaTeX markup.
 
     >>> shown(r"9.13 \times 10^9"), shown(r"\frac{1}{2}"), shown("~ 0.3"), shown("m^{1/2}")
     ('9.13 × 10⁹', '1/2', '~0.3', 'm^(1/2)')
@@ -47,7 +47,11 @@ def shown(text: str) -> str:
 
 
 class Inferred(Entry, frozen=True):
-    """An input that the report does not print, to be inferred from the numbers that it does."""
+    """An input that the report does not print; it is inferred from the numbers that it prints.
+
+    `search` is the range that is searched and `nominal` the value taken where the evidence admits
+    it, both in `unit`. `mass`, `radius`, `density`, `header` and `evidence` are ids of claims.
+    """
 
     title: str
     symbol: str
@@ -64,7 +68,7 @@ class Inferred(Entry, frozen=True):
 
 
 class Symbol(Entry, frozen=True):
-    """What a symbol of the equations means, how the report writes it, and how a page shows it."""
+    """A symbol of the equations: how the report writes it, how it is shown, and what it means."""
 
     written: list[str]
     shown: str
@@ -74,7 +78,7 @@ class Symbol(Entry, frozen=True):
 
 
 class Quantity(Entry, frozen=True):
-    """A physical quantity: the range of it that is searched, in its unit, and why this one."""
+    """A physical quantity: its unit, the range of values that is searched, and the reason."""
 
     unit: str
     search: tuple[Fraction, Fraction]
@@ -82,7 +86,7 @@ class Quantity(Entry, frozen=True):
 
 
 class Slip(Entry, frozen=True):
-    """What the author may have computed instead: another text of an equation, or other inputs."""
+    """A slip the author may have made: computing with another equation or with other inputs."""
 
     name: str
     reason: str
@@ -92,7 +96,7 @@ class Slip(Entry, frozen=True):
 
 
 class Source(Entry, frozen=True):
-    """A public source for a number that the report takes from nowhere; see sources.toml."""
+    """A public source for a number that the report does not derive (see sources.toml)."""
 
     id: str
     title: str
@@ -104,7 +108,7 @@ class Source(Entry, frozen=True):
 
     @property
     def numbers(self) -> list[Printed]:
-        """The number that it prints, or the two ends of a range."""
+        """The number that the source prints, or both ends of the range that it prints."""
         return [parse(text) for text in re.findall("⟦(.*?)⟧", self.quote)]
 
     @property
@@ -114,19 +118,19 @@ class Source(Entry, frozen=True):
 
     @property
     def value(self) -> Fraction:
-        """The number in SI; of a range, its lower end."""
+        """The number, or the lower end of the range, in SI."""
         return self.numbers[0].value * to_si(self.unit)
 
     @property
     def interval(self) -> Interval:
-        """What agrees with it, in SI."""
+        """The values, in SI, that agree with the source."""
         ends = [number.interval() for number in self.numbers]
         whole = Interval(ends[0].lower, ends[-1].upper, ends[0].lower_closed, ends[-1].upper_closed)
         return whole.scaled(to_si(self.unit))
 
 
 class Report(Entry, frozen=True):
-    """What is audited."""
+    """The report that is audited: its text's file name and its bibliographic data."""
 
     text: str
     title: str
@@ -135,11 +139,12 @@ class Report(Entry, frozen=True):
 
 
 class Convention(msgspec.Struct, frozen=True):
-    """How printed text is read where the report does not say how it was printed.
+    """One reading of the report where it does not say how it was rounded or computed.
 
-    `choices_exact`: what the author chose (500 m/s, 700 MPa, 0.2 ns) is the value itself, not a
-    rounding of it. `header_exact`: so are the numbers above the rows of Table A-1. `centered`: the
-    sheet takes the drag at the velocity in the middle of a row, not at its start.
+    `rounding` is how values became printed text. With `choices_exact`, what the author chose
+    (500 m/s, 700 MPa, 0.2 ns) is exact, not rounded; with `header_exact`, so are the numbers
+    above the rows of Table A-1. With `centered`, the sheet takes the drag at the velocity in the
+    middle of a time step, otherwise at the velocity at its start.
     """
 
     rounding: Rounding = Rounding.AWAY
@@ -148,8 +153,20 @@ class Convention(msgspec.Struct, frozen=True):
     centered: bool = False
 
 
-class ClaimEntry(Entry, frozen=True):
-    """A [[claim]] of the file: one printed number, and what the ledger says about it."""
+def in_header(cell: str | None) -> bool:
+    """Return whether a cell is in the header of Table A-1, whose numbers are all in column B."""
+    return cell is not None and cell.startswith("B")
+
+
+class Claim(Entry, frozen=True, dict=True, eq=False):
+    """A [[claim]]: one printed number, with what is recorded about it and what follows from that.
+
+    `Ledger.claims` fills in the fields from `text` on. `why` is the reason of which `given` is the
+    key. `computations` has the computation as printed under the name "", and other readings by
+    name. `inputs` maps each input of the computations to the entries whose product it is. `within`
+    is the equation that the number is a constant of. `chosen` says that the author set the number,
+    here or in the claim that this one repeats. `bound` is the number that a relation compares with.
+    """
 
     id: str
     title: str
@@ -170,49 +187,12 @@ class ClaimEntry(Entry, frozen=True):
     row: int | None = None
     quantity: str | None = None
     workbook: str | None = None
-
-
-class TimeSteps(Entry, frozen=True):
-    """The [time_steps]: rows of Table A-1 as printed, and what the claims in a column share."""
-
-    rows: Mapping[str, str]
-    columns: Mapping[str, Mapping[str, Any]]
-
-    @property
-    def claims(self) -> Iterator[ClaimEntry]:
-        """A claim for each cell that prints a number."""
-        for step, (row, printed) in enumerate(self.rows.items(), 1):
-            cells = dict(zip(ascii_uppercase, printed.split("\t"), strict=False))
-            for letter, column in self.columns.items():
-                marked = {**cells, letter: f"⟦{cells[letter]}⟧"}
-                own = {
-                    "id": f"{column['id']}-{step}", "title": f"{column['title']}, row {step}",
-                    "quote": "\t".join(marked.values()), "cell": f"{letter}{row}", "row": step,
-                }  # fmt: skip
-                yield msgspec.convert({**column, **own}, ClaimEntry)
-
-
-def in_header(cell: str | None) -> bool:
-    """Whether a cell is one of those above the rows of Table A-1; they are all in column B."""
-    return cell is not None and cell.startswith("B")
-
-
-class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
-    """A claim as it stands in the report.
-
-    `given` is the key of a reason why nothing computes it, `why` that reason in words;
-    `computations` has the computation as printed under the name "", and each other reading;
-    `inputs` names for each input of the computations the entries whose product it is; `within` the
-    equation that the number is a constant of; `chosen` says that the author set it, here or where
-    this claim repeats it; `bound` is the number that a relation compares with.
-    """
-
-    text: str
-    place: Place
-    why: str | None
-    computations: Mapping[str, Computation]
-    inputs: Mapping[str, tuple[str, ...]]
-    within: str | None
+    text: str = ""
+    place: Place = Place()
+    why: str | None = None
+    computations: Mapping[str, Computation] = {}
+    inputs: Mapping[str, tuple[str, ...]] = {}
+    within: str | None = None
     chosen: bool = False
     bound: Fraction | None = None
 
@@ -223,7 +203,7 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
 
     @property
     def shown(self) -> str:
-        """Its text as a page shows it, without the marks of LaTeX."""
+        """The text as it is shown to readers, without LaTeX markup."""
         return shown(self.text)
 
     @cached_property
@@ -240,16 +220,16 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
 
     @cached_property
     def value(self) -> Fraction:
-        """The number as printed, in SI. Raises ValueError for a remark."""
+        """The number as printed, in SI. Raises ValueError for a comparison or a remark."""
         return self.number.value * self.si
 
     @property
     def is_exact(self) -> bool:
-        """Whether the text is the value itself under every convention."""
+        """Whether the text is the exact value under every convention."""
         return self.exact or self.kind == "constant"
 
     def interval(self, rounding: Rounding = Rounding.AWAY) -> Interval:
-        """The values, in its unit, that agree with the claim. Raises ValueError for a remark."""
+        """Return the values that agree with it, in its unit. Raises ValueError for a remark."""
         if self.bound is not None:
             above, closed = self.relation in (">", ">="), self.relation in ("<=", ">=")
             low, high = (self.bound, None) if above else (None, self.bound)
@@ -260,11 +240,11 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
         return self.number.about() if is_about else self.number.interval(rounding)
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
-        """`interval` in SI."""
+        """Return the values, in SI, that agree with the claim."""
         return self.interval(rounding).scaled(self.si)
 
     def as_input(self, convention: Convention) -> Interval:
-        """The values, in SI, that this number may stand for where another claim rests on it."""
+        """Return the values, in SI, that the number may have as an input of another claim."""
         if (
             self.number.quantum == 0
             or self.bound is not None
@@ -276,51 +256,70 @@ class Claim(ClaimEntry, frozen=True, kw_only=True, dict=True, eq=False):
 
     @property
     def computation(self) -> Computation | None:
-        """What computes the claim as printed, if anything does."""
+        """The computation that gives the claim as printed, if there is one."""
         return self.computations.get("")
 
     @cached_property
     def entries(self) -> list[str]:
-        """The entries that it rests on, sorted."""
+        """The ids of the entries that the claim is computed from, sorted."""
         return sorted({name for names in self.inputs.values() for name in names})
 
     @property
     def inferred(self) -> list[str]:
-        """The entries that it rests on and that the report does not print."""
+        """The entries that the claim is computed from and that the report does not print."""
         return [name for name in self.entries if name.startswith(INFERRED)]
 
     @property
     def stated(self) -> list[str]:
-        """The entries that it rests on and that the report prints."""
+        """The entries that the claim is computed from and that the report prints."""
         return [name for name in self.entries if not name.startswith(INFERRED)]
 
     def resting_on(self, **inputs: str) -> "Claim":
-        """The claim with other entries for some of its inputs."""
+        """Return a copy of the claim in which these entries replace those of the named inputs."""
         entries = {key: (name,) for key, name in inputs.items()}
         return replace(self, inputs={**self.inputs, **entries})
 
     @cached_property
     def by_scheme(self) -> bool:
-        """Whether it depends on the scheme of the sheet."""
+        """Whether the claim depends on the numerical scheme of the sheet."""
         return any(computation.by_scheme for computation in self.computations.values())
 
     @property
     def by_whole_sheet(self) -> bool:
-        """Whether it is computed by all rows of the sheet, which takes long."""
+        """Whether the claim is computed from all rows of the sheet, which is slow."""
         return self.by_scheme and self.row is None
 
     @cached_property
     def uses(self) -> list[str]:
-        """The printed equations that it is computed with, sorted."""
-        premises = (computation.premises for computation in self.computations.values())
-        return sorted({premise.equation for each in premises for premise in each.values()})
+        """The ids of the printed equations in the claim's computations, sorted."""
+        computations = self.computations.values()
+        return sorted({p.equation for own in computations for p in own.premises.values()})
+
+
+class TimeSteps(Entry, frozen=True):
+    """The table [time_steps]: the rows of Table A-1 as printed, and the common keys of columns."""
+
+    rows: Mapping[str, str]
+    columns: Mapping[str, Mapping[str, Any]]
+
+    @property
+    def claims(self) -> Iterator[Claim]:
+        """The claims of the cells that print a number, by rows."""
+        for step, (row, printed) in enumerate(self.rows.items(), 1):
+            cells = dict(zip(ascii_uppercase, printed.split("\t"), strict=False))
+            for letter, column in self.columns.items():
+                marked = {**cells, letter: f"⟦{cells[letter]}⟧"}
+                own = {
+                    "id": f"{column['id']}-{step}", "title": f"{column['title']}, row {step}",
+                    "quote": "\t".join(marked.values()), "cell": f"{letter}{row}", "row": step,
+                }  # fmt: skip
+                yield msgspec.convert({**column, **own}, Claim)
 
 
 class Ledger(Entry, frozen=True, dict=True, eq=False):
-    """The whole of ledger.toml, with all claims and equations in the order of the report.
+    """The content of ledger.toml, with claims and equations in the order of the report.
 
-    `misprinted` are the texts that stand in the place of the report's, by the id of the claim or
-    equation.
+    `misprinted` maps the id of a claim or an equation to the text that replaces the report's.
     """
 
     report: Report
@@ -332,7 +331,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     quantities: dict[str, Quantity]
     incidental: list[dict[Literal["pattern", "reason"], str]]
     equation: list[Equation]
-    claim: list[ClaimEntry]
+    claim: list[Claim]
     time_steps: TimeSteps
     slip: list[Slip]
     computation: list[Computation]
@@ -340,7 +339,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     @cached_property
     def text(self) -> str:
-        """The report."""
+        """The text of the report."""
         return _file(self.report.text)
 
     @cached_property
@@ -350,12 +349,12 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         return {source.id: source for source in sources}
 
     def sources_of(self, name: str) -> list[Source]:
-        """The public sources for a claim or an inferred input."""
+        """Return the public sources for a claim or an inferred input."""
         return [source for source in self.sources.values() if name in source.claims]
 
     @cached_property
     def computations(self) -> Mapping[str, Computation]:
-        """What computes claims, by name."""
+        """The computations, by name."""
         return {computation.name: computation for computation in self.computation}
 
     @cached_property
@@ -369,51 +368,43 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     @cached_property
     def claims(self) -> Mapping[str, Claim]:
         """The claims, by id."""
-        texts, claims = self.misprinted, {**self._claims}
-        for name in texts.keys() & claims.keys():
-            claims[name] = replace(claims[name], text=texts[name])
-        for name, claim in claims.items():
-            if name in texts or claim.against in texts:
-                claims[name] = replace(claim, bound=_bound(claim, claims))
-        return claims
+        located = {}
+        for claim in (*self.claim, *self.time_steps.claims):
+            place = place_of(self.text, claim.quote, claim.cell)
+            text = self.text[place.start : place.end]
+            located[claim.id] = replace(claim, text=text, place=place)
+        in_order = sorted(located.values(), key=lambda claim: claim.place.start)
+        return {claim.id: self._linked(claim, located) for claim in in_order}
 
-    @cached_property
-    def _claims(self) -> Mapping[str, Claim]:
-        """The claims as the report prints them."""
-        entries = (*self.claim, *self.time_steps.claims)
-        placed = sorted(map(self._placed, entries), key=lambda claim: claim.place.start)
-        claims = {claim.id: claim for claim in placed}
-        return {
-            name: replace(claim, chosen=_is_chosen(claim, claims), bound=_bound(claim, claims))
-            for name, claim in claims.items()
-        }
-
-    def _placed(self, claim: ClaimEntry) -> Claim:
-        if claim.cell:  # our sheet of that name has it in the same cell
-            claim = replace(claim, workbook=f"Table A-1!{claim.cell}")
+    def _linked(self, claim: Claim, located: Mapping[str, Claim]) -> Claim:
+        """Return a claim with the entries that it names looked up."""
+        original = claim
+        while original.same_as:
+            original = located[original.same_as]
         if claim.same_as:
             claim = replace(claim, computed_by="same_as", rests_on={"value": claim.same_as})
-        readings = {"": claim.computed_by, **claim.readings}
-        place, rests_on = place_of(self.text, claim.quote, claim.cell), dict(claim.rests_on)
-        group = rests_on.pop("group", None)
-        inputs = {**self.groups[group], **rests_on} if group else rests_on
+        readings, inputs = {"": claim.computed_by, **claim.readings}, dict(claim.rests_on)
+        if group := inputs.pop("group", None):
+            inputs = {**self.groups[group], **inputs}
         places = ((equation.id, equation.place) for equation in self.equations.values())
-        around = (name for name, at in places if at.start <= place.start < at.end)
-        return Claim(
-            **msgspec.structs.asdict(claim),
+        around = (name for name, at in places if at.start <= claim.place.start < at.end)
+        return replace(
+            claim,
             why=claim.given and self.reasons[claim.given],
-            text=self.text[place.start : place.end],
-            place=place,
             computations={key: self.computations[name] for key, name in readings.items() if name},
             inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
             within=next(around, None),
+            chosen=original.given == "choice",
+            bound=_bound(claim, located),
+            # The workbook's sheet Table A-1 has a number of that table in the same cell.
+            workbook=f"Table A-1!{claim.cell}" if claim.cell else claim.workbook,
         )
 
     # The printed equations
 
     @cached_property
     def written(self) -> Mapping[str, str]:
-        """How the report writes its symbols, and their names."""
+        """The names of the symbols, by the texts that the report writes for them."""
         return {text: name for name, symbol in self.symbols.items() for text in symbol.written}
 
     @cached_property
@@ -422,76 +413,65 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         return {name: unit_dimension(symbol.unit) for name, symbol in self.symbols.items()}
 
     def equation_of(self, name: str) -> str | None:
-        """The equation with this id, or that the number with this id is a constant of."""
+        """Return the id of an equation itself, or of the one that a claim is a constant of."""
         return name if name in self.equations else self.claims[name].within
 
     def constants_of(self, equation: str) -> list[str]:
-        """The claims that are constants of an equation, in its order."""
+        """Return the claims that are constants of an equation, in the order of its text.
+
+        An equation whose whole text is replaced by a misprint has none.
+        """
         if equation in self.misprinted:
             return []
         return [claim.id for claim in self.claims.values() if claim.within == equation]
 
     def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
-        """The text of a claim, or of an equation, with other constants in it if they are given."""
+        """Return the text of a claim, or of an equation with the values `constants` put in."""
         if name in self.claims:
             return self.claims[name].text
         if name in self.misprinted:
             return self.misprinted[name]
         place = self.equations[name].place
-        at, text = place.start, ""
-        for constant in self.constants_of(name):
+        text = self.text[place.start : place.end]
+        for constant in reversed(self.constants_of(name)):  # the last one first: it moves no other
             claim, own = self.claims[constant], self.claims[constant].text
             if (value := constants.get(constant)) is not None:
                 own = rf"\frac{{{value.numerator}}}{{{value.denominator}}}"
-            text += self.text[at : claim.place.start] + own
-            at = claim.place.end
-        return text + self.text[at : place.end]
+            start, end = claim.place.start - place.start, claim.place.end - place.start
+            text = text[:start] + own + text[end:]
+        return text
 
     @cached_property
     def sides(self) -> Sides:
-        """The sides of every equation.
-
-        Where a misprint makes one unreadable, they are those that the report prints. Raises
-        EquationError if even these cannot be read.
-        """
-        sides = {**self._sides}
-        for name in filter(None, map(self.equation_of, self.misprinted)):
-            with suppress(EquationError):
-                sides[name] = self.read(self.printed_text(name))
-        return sides
-
-    @cached_property
-    def _sides(self) -> Sides:
-        """The sides as the report prints them."""
-        places = {name: equation.place for name, equation in self.equations.items()}
-        return {name: self.read(self.text[at.start : at.end]) for name, at in places.items()}
+        """The sides of every equation. Raises EquationError if one cannot be read."""
+        return {name: self.read(self.printed_text(name)) for name in self.equations}
 
     def read(self, text: str) -> tuple[Node, ...]:
-        """The sides of an equation of this report, given as text. Raises EquationError."""
+        """Return the sides of an equation in the report's notation. Raises EquationError."""
         return read_equation(text, self.written)
 
     # The entries as inputs
 
     def title(self, name: str) -> str:
-        """What an entry is, in words."""
+        """Return the title of an equation, a claim or an inferred input."""
         equation = self.equations.get(name)
         return equation.title if equation else self._input(name).title
 
     def unit(self, name: str) -> str:
-        """The unit of an input."""
+        """Return the unit of a claim or an inferred input."""
         return self._input(name).unit
 
     def _input(self, name: str) -> Claim | Inferred:
-        unknown = name.startswith(INFERRED)
-        return self.inferred[name.removeprefix(INFERRED)] if unknown else self.claims[name]
+        is_inferred = name.startswith(INFERRED)
+        return self.inferred[name.removeprefix(INFERRED)] if is_inferred else self.claims[name]
 
     def value(self, name: str) -> Fraction:
-        """An entry's value as printed, or the nominal one of an inferred input, in SI."""
+        """Return, in SI, the printed value of a claim or the nominal value of an inferred input."""
         entry = self._input(name)
         return entry.nominal * to_si(entry.unit) if isinstance(entry, Inferred) else entry.value
 
     def search(self, name: str) -> tuple[Fraction, Fraction, str]:
-        """The least and the greatest value of an entry, in SI, to search, and why these."""
+        """Return the range, in SI, in which to search for an entry's value, and its reason."""
         key = self._input(name).quantity
         if key is None:
             if not (value := self.value(name)):
@@ -505,9 +485,10 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     # Claims as functions of their entries
 
     def function(self, claim: Claim, *, reading: str = "", centered: bool = False) -> Function:
-        """A claim's computation as a function of an arithmetic and of the claim's entries by name.
+        """Return a claim's computation, as a function of an arithmetic and of its entries by id.
 
-        An entry that stands in several inputs is one variable.
+        An entry that occurs in several inputs is a single variable of that function. `reading` is
+        the name of one of the claim's computations, and `centered` that of `Convention`.
         """
         computation = claim.computations[reading]
         settings: dict[str, Any] = {}
@@ -530,36 +511,37 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     # Copies with a misprint
 
     def misprint(self, name: str, text: str) -> "Ledger":
-        """A copy with other text in the place of a claim's or an equation's.
+        """Return a copy in which a text replaces that of a claim or an equation.
 
-        The claims that it does not touch stay the same objects. Raises ValueError if a claim's text
-        is no number, KeyError for an unknown name.
+        The claims that this does not change remain the same objects, and an equation that it makes
+        unreadable keeps its sides. Raises ValueError if the text of a claim is no number, and
+        KeyError for an unknown name.
         """
-        if self.equation_of(name) != name:
+        if (equation := self.equation_of(name)) != name:
             parse(text)
         copy = replace(self, misprinted={**self.misprinted, name: text})
-        # What no misprint changes is worked out once.
-        for same in ("text", "sources", "equations", "written", "dimensions", "_claims", "_sides"):
-            copy.__dict__[same] = getattr(self, same)
+        for unchanged in ("text", "sources", "equations", "written", "dimensions"):
+            copy.__dict__[unchanged] = getattr(self, unchanged)
+        claims, sides = dict(self.claims), dict(self.sides)
+        copy.__dict__.update(claims=claims, sides=sides)
+        if name in claims:
+            claims[name] = replace(claims[name], text=text)
+            for claim in [claim for claim in claims.values() if name in (claim.id, claim.against)]:
+                claims[claim.id] = replace(claim, bound=_bound(claim, claims))
+        if equation:
+            with suppress(EquationError):
+                sides[equation] = self.read(copy.printed_text(equation))
         return copy
 
 
-def _is_chosen(claim: Claim, claims: Mapping[str, Claim]) -> bool:
-    """Whether the author set the number, here or where this claim repeats it."""
-    if claim.same_as:
-        return _is_chosen(claims[claim.same_as], claims)
-    return claim.given == "choice"
-
-
 def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
-    """The number that a claim compares with, its own or another claim's."""
-    compared = claims[claim.against] if claim.against else claim
-    return compared.printed.value if claim.relation and compared.printed else None
+    """Return the number that a claim's relation compares with: its own or another claim's."""
+    return claims[claim.against or claim.id].number.value if claim.relation else None
 
 
 @cache
 def load() -> Ledger:
-    """The report's ledger.
+    """Return the report's ledger.
 
     >>> ledger = load()
     >>> claim = ledger.claims["depth-beta-5"]
@@ -571,7 +553,7 @@ def load() -> Ledger:
 
 
 def tables(file: str, kind: Any) -> Any:
-    """A file of `reference/report` as structs; msgspec.ValidationError where it does not fit."""
+    """Read a TOML file of `reference/report`. Raises msgspec.ValidationError if it does not fit."""
     document = tomllib.loads(_file(file))
     return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
 
@@ -581,11 +563,11 @@ def _file(name: str) -> str:
 
 
 def claims_of_case(beta: int) -> dict[str, str]:
-    """The claims that print the inputs of the report's case with this beta.
+    """Return, by input, the claims that print the inputs of the report's case with this beta.
 
     >>> claims_of_case(5)["beta"]
     'depth-beta-5-beta'
     """
-    # The target density is printed nowhere: the audit infers what Table A-1 admits.
+    # The report prints no target density: the audit infers the values that Table A-1 admits.
     strength = {"beta": f"depth-beta-{beta}-beta", "flow_stress": "flow-stress"}
     return {**load().groups["impact"], **strength}

@@ -1,8 +1,9 @@
-"""Printed text: the exact interval of the values that print like it, and where it stands.
+"""Printed numbers: the exact interval of the values that print as a text, and where it stands.
 
-A printed number is text: "7.67" stands for every value from 7.665 up to 7.675, "700" for one to
-three significant digits. All arithmetic is rational; no binary float is involved. How a value
-becomes text is a convention (`Rounding`); fractions ("7/3") and number words ("three") are exact.
+A printed number is a text: "7.67" stands for every value from 7.665 up to 7.675, and "700" may have
+one, two or three significant digits. All arithmetic is rational; no binary float is involved.
+`Rounding` is the rule by which a value becomes text. Fractions ("7/3"), number words ("three") and
+powers of ten ("10^7") are exact.
 """
 
 import re
@@ -16,7 +17,7 @@ import msgspec
 
 
 class Rounding(Enum):
-    """How a value becomes printed text; the ends of the interval follow from it."""
+    """The rule by which a value is rounded to the printed text."""
 
     AWAY = "to nearest, ties away from zero"
     EVEN = "to nearest, ties to even"
@@ -24,9 +25,9 @@ class Rounding(Enum):
 
 
 class Interval(msgspec.Struct, frozen=True, dict=True):
-    """An interval of rationals; an end that is None is infinite.
+    """A non-empty interval of rational numbers; an end that is None is infinite.
 
-    Raises ValueError if it is empty.
+    Raises ValueError if it would be empty.
 
     >>> print(Interval(Fraction("7.665"), Fraction("7.675"), upper_closed=False))
     [7.665, 7.675)
@@ -38,57 +39,58 @@ class Interval(msgspec.Struct, frozen=True, dict=True):
     upper_closed: bool = True
 
     def __post_init__(self) -> None:
-        if self._starts > self._stops:
+        if self._lower_key > self._upper_key:
             raise ValueError(f"the interval from {self.lower} to {self.upper} is empty")
 
     @cached_property
-    def _starts(self) -> tuple[Fraction | float, int]:
-        """Where it starts, for comparisons: an open end lies a little further in."""
+    def _lower_key(self) -> tuple[Fraction | float, int]:
+        """The lower end as a key to compare with (value, 0): an open end ranks just inside."""
         return (-inf if self.lower is None else self.lower), 1 - self.lower_closed
 
     @cached_property
-    def _stops(self) -> tuple[Fraction | float, int]:
+    def _upper_key(self) -> tuple[Fraction | float, int]:
+        """The upper end, likewise."""
         return (inf if self.upper is None else self.upper), self.upper_closed - 1
 
     @classmethod
     def point(cls, value: Fraction) -> "Interval":
-        """The interval of one value."""
+        """Return the interval that contains a single value."""
         return cls(value, value)
 
     @property
     def is_point(self) -> bool:
-        """Whether it holds one value only."""
+        """Whether the interval contains a single value."""
         return self.lower is not None and self.lower == self.upper
 
     @property
     def ends(self) -> tuple[Fraction, Fraction]:
-        """The lower and the upper end. Raises ValueError where one is infinite."""
+        """The lower and the upper end. Raises ValueError if either is infinite."""
         if self.lower is None or self.upper is None:
             raise ValueError(f"{self} has no end on one side")
         return self.lower, self.upper
 
     def contains(self, value: Fraction) -> bool:
-        """Whether the value lies inside; an open end does not belong to the interval."""
+        """Return whether a value lies in the interval; an open end does not."""
         return self.encloses(value, value)
 
     def encloses(self, lower: Fraction, upper: Fraction) -> bool:
-        """Whether every value from lower to upper lies inside."""
-        return self._starts <= (lower, 0) and (upper, 0) <= self._stops
+        """Return whether every value from lower to upper lies in the interval."""
+        return self._lower_key <= (lower, 0) and (upper, 0) <= self._upper_key
 
     def excludes(self, lower: Fraction, upper: Fraction) -> bool:
-        """Whether no value from lower to upper lies inside."""
-        return (upper, 0) < self._starts or self._stops < (lower, 0)
+        """Return whether no value from lower to upper lies in the interval."""
+        return (upper, 0) < self._lower_key or self._upper_key < (lower, 0)
 
     def decides(self, lower: Fraction, upper: Fraction) -> bool:
-        """Whether all values from lower to upper lie inside, or none."""
+        """Return whether all values from lower to upper lie in the interval, or none does."""
         return self.encloses(lower, upper) or self.excludes(lower, upper)
 
     def meets(self, another: "Interval") -> bool:
-        """Whether some value lies in both."""
-        return self._starts <= another._stops and another._starts <= self._stops
+        """Return whether the two intervals have a value in common."""
+        return self._lower_key <= another._upper_key and another._lower_key <= self._upper_key
 
     def scaled(self, factor: Fraction) -> "Interval":
-        """The interval times a positive factor (a change of unit)."""
+        """Return the interval times a positive factor, as for a change of unit."""
         lower = None if self.lower is None else self.lower * factor
         upper = None if self.upper is None else self.upper * factor
         return Interval(lower, upper, self.lower_closed, self.upper_closed)
@@ -102,11 +104,12 @@ class Interval(msgspec.Struct, frozen=True, dict=True):
 
 
 def decimal_text(value: Fraction) -> str:
-    """A rational as a decimal where that ends, else as a fraction.
+    """Return a rational number as a decimal if that terminates, and otherwise as a fraction.
 
     >>> decimal_text(Fraction(3115, 1000) * 10**8), decimal_text(Fraction(1, 3))
     ('3.115E+8', '1/3')
     """
+    # If p/q terminates, q divides 10^n, n <= log2(q): p/q has no more digits than p and n.
     digits = len(str(abs(value.numerator))) + 4 * len(str(value.denominator))
     context = Context(prec=digits, traps=[Inexact])
     try:
@@ -118,11 +121,11 @@ def decimal_text(value: Fraction) -> str:
 
 
 class Printed(msgspec.Struct, frozen=True):
-    """A printed number: its text, the value that the text spells, the place of its last digit.
+    """A printed number: its text, the value of that text, and the place of its last digit.
 
-    `quanta` are the units that the last significant digit may have: one where the text is decimal,
-    several where an integer ends in zeros, 0 for exact text. `floating` says that the digits
-    before an exponent were counted, as in "1.00E+03", and not the decimals.
+    `quanta` are the possible units of the last significant digit: several for an integer that ends
+    in zeros, otherwise one, which is 0 for an exact text. `floating` says that the author fixed the
+    number of significant digits, as in "1.00E+03", not the number of decimals.
     """
 
     text: str
@@ -132,13 +135,15 @@ class Printed(msgspec.Struct, frozen=True):
 
     @property
     def quantum(self) -> Fraction:
-        """Unit of the last printed digit, all digits taken as significant; 0 if exact."""
+        """The unit of the last printed digit, taken as significant; 0 for an exact text."""
         return self.quanta[0]
 
     def interval(
         self, rounding: Rounding = Rounding.AWAY, quantum: Fraction | None = None
     ) -> Interval:
-        """The values that print like this, for a rounding rule and a place of the last digit.
+        """Return the values that a rounding rule prints as this text.
+
+        `quantum` is the unit of the last significant digit, by default that of the last digit.
 
         >>> print(parse("700").interval(), parse("700").interval(quantum=Fraction(100)))
         [699.5, 700.5) [650, 750)
@@ -154,13 +159,14 @@ class Printed(msgspec.Struct, frozen=True):
         if rounding is Rounding.CUT:
             low, high, low_closed, high_closed = size, size + quantum, True, False
         else:
-            # Just below a power of ten, digits that are counted stand ten times closer.
-            counted = self.floating or (self.quantum and quantum != self.quantum)
-            closer = counted and re.fullmatch("10*", str(size / quantum))
+            # With a fixed number of significant digits, the numbers that can be printed lie ten
+            # times closer together below a power of ten than above it.
+            digits_are_fixed = self.floating or (self.quantum and quantum != self.quantum)
+            closer = digits_are_fixed and re.fullmatch("10*", str(size / quantum))
             below = quantum / 10 if closer else quantum
             low, high = size - below / 2, size + quantum / 2
             even = size / quantum % 2 == 0
-            # Below a power of ten the neighbor ends in 9, which is odd.
+            # The neighbor below a power of ten ends in 9, which is odd: a tie goes to the power.
             low_closed = rounding is Rounding.AWAY or even or below != quantum
             high_closed = rounding is Rounding.EVEN and even
         if self.value == 0:
@@ -170,10 +176,11 @@ class Printed(msgspec.Struct, frozen=True):
         return Interval(low, high, low_closed, high_closed)
 
     def about(self) -> Interval:
-        """The values that an author may call "about" this: the fewest digits the text allows.
+        """Return the values of which an author may say "about" this number.
 
-        Exact text stands for the values that are nearer to it than to its neighbors among the
-        whole numbers, or among the unit fractions. Raises ValueError for any other fraction.
+        They are those that round to it at the fewest significant digits that the text allows. For
+        an exact text they are those closer to it than to the next whole numbers, or to the
+        next unit fractions. Raises ValueError for any other fraction.
 
         >>> print(parse("700").about(), parse("third").about(), parse("twice").about())
         [650, 750) [7/24, 5/12] [1.5, 2.5)
@@ -184,7 +191,7 @@ class Printed(msgspec.Struct, frozen=True):
         if parts == 1:
             return self.interval(quantum=Fraction(1))
         if whole != 1:
-            raise ValueError(f"{self.text!r} is no whole number and no unit fraction")
+            raise ValueError(f"{self.text!r} is neither a whole number nor a unit fraction")
         below, above = (Fraction(1, n) for n in (parts + 1, parts - 1))
         return Interval((below + self.value) / 2, (self.value + above) / 2)
 
@@ -196,7 +203,7 @@ _WORDS = {
 }  # fmt: skip
 _TEN = r"10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\})"
 _DECIMAL = re.compile(
-    r"(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<part>\d+))?"
+    r"(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<decimals>\d+))?"
     rf"(?:[Ee](?P<e>[-+]?\d{{1,4}})|\s*(?:×|x|\\times)\s*{_TEN})?"
 )
 _FRACTION = re.compile(r"(\d+)/([1-9]\d*)|\\frac\{(\d+)\}\{([1-9]\d*)\}")
@@ -204,11 +211,11 @@ _FRACTION = re.compile(r"(\d+)/([1-9]\d*)|\\frac\{(\d+)\}\{([1-9]\d*)\}")
 
 @lru_cache(4096)
 def parse(text: str) -> Printed:
-    """Read one printed number.
+    """Read one printed number. Raises ValueError for any other text.
 
-    Decimals ("7.67", "5,575", "8·9"), exponents ("3.11E+08", "9.13 × 10^9"), a leading "~" (taken
-    as its number, at its fewest digits by the ledger), powers of ten ("10^7"), fractions ("7/3")
-    and number words ("three"), the last three exact. Raises ValueError for anything else.
+    It may be a decimal ("7.67", "5,575", "8·9") or have an exponent ("3.11E+08", "9.13 × 10^9").
+    Powers of ten ("10^7"), fractions ("7/3") and number words ("three") are read as exact. A
+    leading "~" is ignored, as the kind of such a claim says that it is an approximation.
 
     >>> parse("3.11E+08").interval().upper
     Fraction(311500000, 1)
@@ -225,18 +232,18 @@ def parse(text: str) -> Printed:
     match = _DECIMAL.fullmatch(bare)
     if match is None:
         raise ValueError(f"cannot read {text!r} as a printed number")
-    whole, part = match["whole"].replace(",", ""), match["part"] or ""
+    whole, decimals = match["whole"].replace(",", ""), match["decimals"] or ""
     exponent = int((match["e"] or match["power"] or "0").strip("{}"))
-    scale = Fraction(10) ** (exponent - len(part))
-    value = int(match["sign"] + whole + part) * scale
+    scale = Fraction(10) ** (exponent - len(decimals))
+    value = int(match["sign"] + whole + decimals) * scale
     floating = match["e"] is not None or match["power"] is not None
-    digits = "" if part or floating else whole.lstrip("0")
+    digits = "" if decimals or floating else whole.lstrip("0")
     zeros = len(digits) - len(digits.rstrip("0"))
     return Printed(text, value, tuple(scale * 10**n for n in range(zeros + 1)), floating)
 
 
 class Place(msgspec.Struct, frozen=True):
-    """Where something stands: characters and line of the text, section, equation, table cell."""
+    """A place in the report: characters of its text, line, section, equation and table cell."""
 
     start: int = 0
     end: int = 0
@@ -253,7 +260,7 @@ class Place(msgspec.Struct, frozen=True):
 
 
 def place_of(text: str, quote: str, cell: str | None = None) -> Place:
-    """Where the marked words of a quote stand. Raises ValueError unless they stand there once."""
+    """Return where a quote's words in ⟦⟧ stand. Raises ValueError unless it occurs once."""
     before, marked, after = re.split("[⟦⟧]", quote)
     words = before + marked + after
     if (times := text.count(words)) != 1:
@@ -267,7 +274,7 @@ def place_of(text: str, quote: str, cell: str | None = None) -> Place:
 
 @cache
 def _sections(text: str) -> list[tuple[int, str]]:
-    """Where the parts of the report begin, and what they are called."""
+    """Return where each section of the report begins, and its name."""
     headings = re.finditer(r"(?m)^ ?(?:\d+\. (ABSTRACT)|(\d)\. [A-Z]|(Appendix)\.)", text)
     named = ((h.start(), f"section {h[2]}" if h[2] else (h[1] or h[3]).lower()) for h in headings)
     return [(0, "title"), *named]
@@ -275,6 +282,6 @@ def _sections(text: str) -> list[tuple[int, str]]:
 
 @cache
 def _displays(text: str) -> list[tuple[int, int, str]]:
-    """Where the numbered equations stand, and their numbers."""
+    """Return where each numbered equation begins and ends, and its number."""
     numbered = r"\$\$(?:(?!\$\$).)*?\\quad \((?:\\text\{)?([-A\d]+)\}?\)"
     return [(*match.span(), match[1]) for match in re.finditer(numbered, text, re.DOTALL)]

@@ -1,8 +1,8 @@
-"""Units of measurement, in exact rational arithmetic: those that are listed here, and no others.
+"""Units of measurement, converted in exact rational arithmetic.
 
-A unit is a product or quotient of listed ones with small powers, such as "kg/m^3" or "m s^-1". With
-`Fraction` factors a conversion never rounds (an inch is 254/10000 m, a pound-force
-0.45359237 * 9.80665 N).
+A unit is a product or a quotient of the units listed here with small integer powers, such as
+"kg/m^3" or "m s^-1"; no other unit is accepted. The factors are `Fraction`s, so that a conversion
+never rounds: an inch is 254/10000 m, and a pound-force 0.45359237 * 9.80665 N.
 """
 
 import re
@@ -13,15 +13,15 @@ import msgspec
 
 
 class UnitError(ValueError):
-    """An unknown unit, or one of another dimension than is asked for."""
+    """The unit is unknown, or it measures another kind of quantity than the one required."""
 
 
 class DimensionError(ValueError):
-    """Quantities of different kinds are added, or one that is no pure number is an argument."""
+    """Two quantities of different dimensions are added, or a logarithm's argument has one."""
 
 
 class Dimension(msgspec.Struct, frozen=True):
-    """Powers of kilogram, metre and second."""
+    """The dimension of a physical quantity, as powers of kilogram, metre and second."""
 
     powers: tuple[Fraction, ...] = (Fraction(0), Fraction(0), Fraction(0))
 
@@ -50,22 +50,23 @@ class Dimension(msgspec.Struct, frozen=True):
 
 
 _POUND, _GRAVITY, _INCH = Fraction("0.45359237"), Fraction("9.80665"), Fraction("0.0254")
-_NUMBER, _MASS, _LENGTH, _TIME = (0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)
-_FORCE, _PRESSURE = (1, 1, -2), (1, -1, -2)
-_BASES: dict[str, tuple[Fraction, tuple[int, int, int], str]] = {
-    # name: factor to SI, powers of kg, m and s, the prefixes that it takes
+_NUMBER = Dimension()
+_MASS, _LENGTH, _TIME = (
+    Dimension(tuple(map(Fraction, powers))) for powers in ((1, 0, 0), (0, 1, 0), (0, 0, 1))
+)
+_FORCE = _MASS * _LENGTH / _TIME**2
+_PRESSURE = _FORCE / _LENGTH**2
+_BASES: dict[str, tuple[Fraction, Dimension, str]] = {
+    # names: factor to SI, dimension, the metric prefixes that they accept
     "1": (Fraction(1), _NUMBER, ""),
-    "percent": (Fraction(1, 100), _NUMBER, ""),
-    "%": (Fraction(1, 100), _NUMBER, ""),
+    "percent %": (Fraction(1, 100), _NUMBER, ""),
     "g": (Fraction(1, 1000), _MASS, "n u m k"),
     "lb": (_POUND, _MASS, ""),
     "m": (Fraction(1), _LENGTH, "n u m c k"),
-    "in": (_INCH, _LENGTH, ""),
-    "inch": (_INCH, _LENGTH, ""),
-    "mil": (_INCH / 1000, _LENGTH, ""),
-    "thou": (_INCH / 1000, _LENGTH, ""),
+    "in inch": (_INCH, _LENGTH, ""),
+    "mil thou": (_INCH / 1000, _LENGTH, ""),
     "ft": (12 * _INCH, _LENGTH, ""),
-    "cc": (Fraction(1, 10**6), (0, 3, 0), ""),
+    "cc": (Fraction(1, 10**6), _LENGTH**3, ""),
     "s": (Fraction(1), _TIME, "p n u m"),
     "N": (Fraction(1), _FORCE, "m k"),
     "dyn": (Fraction(1, 10**5), _FORCE, ""),
@@ -79,8 +80,9 @@ _BASES: dict[str, tuple[Fraction, tuple[int, int, int], str]] = {
 }
 _PREFIXES = {"": 0, "p": -12, "n": -9, "u": -6, "m": -3, "c": -2, "k": 3, "M": 6, "G": 9}
 _UNITS = {
-    prefix + name: (factor * Fraction(10) ** _PREFIXES[prefix], powers)
-    for name, (factor, powers, prefixes) in _BASES.items()
+    prefix + name: (factor * Fraction(10) ** _PREFIXES[prefix], dimension)
+    for names, (factor, dimension, prefixes) in _BASES.items()
+    for name in names.split()
     for prefix in ["", *prefixes.split()]
 }
 _FACTOR = re.compile(
@@ -92,28 +94,25 @@ _LONGEST = 40
 
 @cache
 def _unit(unit: str) -> tuple[Fraction, Dimension]:
+    """Return a unit's factor to SI and its dimension. Raises UnitError for an unknown unit."""
     text = unit.translate(_SAME)
-    factor, dimension, at = Fraction(1), Dimension(), 0
-    while at < len(text) <= _LONGEST:
-        match = _FACTOR.match(text, at)
-        if match is None or match["name"] not in _UNITS:
-            break
-        power = int(match["power"] or 1) * (-1 if match["over"] == "/" else 1)
-        base, powers = _UNITS[match["name"]]
-        factor *= base**power
-        dimension *= Dimension(tuple(map(Fraction, powers))) ** power
-        at = match.end()
-    if at < len(text) or not text.strip():
+    matches = list(_FACTOR.finditer(text[:_LONGEST]))
+    is_complete = matches and "".join(match[0] for match in matches) == text
+    if not is_complete or not all(match["name"] in _UNITS for match in matches):
         raise UnitError(
             f"unknown unit {unit[:_LONGEST]!r}: take one such as um, ns, m/s, kg/m^3, MPa or ksi"
         )
+    factor, dimension = Fraction(1), Dimension()
+    for match in matches:
+        power = int(match["power"] or 1) * (-1 if match["over"] == "/" else 1)
+        base, base_dimension = _UNITS[match["name"]]
+        factor *= base**power
+        dimension *= base_dimension**power
     return factor, dimension
 
 
 def to_si(unit: str) -> Fraction:
-    """The factor from a unit to SI base units.
-
-    Raises UnitError for an unknown unit.
+    """Return the factor from a unit to SI base units. Raises UnitError for an unknown unit.
 
     >>> to_si("um"), float(to_si("ksi"))
     (Fraction(1, 1000000), 6894757.293168361)
@@ -122,7 +121,7 @@ def to_si(unit: str) -> Fraction:
 
 
 def unit_dimension(unit: str) -> Dimension:
-    """What a unit measures, as powers of kilogram, metre and second.
+    """Return the dimension of what a unit measures. Raises UnitError for an unknown unit.
 
     >>> print(unit_dimension("MPa"))
     kg m^-1 s^-2
@@ -131,7 +130,7 @@ def unit_dimension(unit: str) -> Dimension:
 
 
 def same_dimension(first: str, second: str) -> bool:
-    """Whether two units measure the same kind of quantity.
+    """Return whether two units measure the same kind of quantity.
 
     >>> same_dimension("ksi", "MPa"), same_dimension("um", "MPa")
     (True, False)
@@ -140,7 +139,7 @@ def same_dimension(first: str, second: str) -> bool:
 
 
 def superscript(power: str) -> str:
-    """A power as raised characters.
+    """Return an exponent in superscript characters.
 
     >>> superscript("-10")
     '⁻¹⁰'
@@ -149,7 +148,7 @@ def superscript(power: str) -> str:
 
 
 def raised(text: str) -> str:
-    """Text with its powers raised.
+    """Return a text with every integer exponent ("^-2") in superscript characters.
 
     >>> raised("kg m^-1 s^-2")
     'kg m⁻¹ s⁻²'
@@ -158,13 +157,10 @@ def raised(text: str) -> str:
 
 
 def written(unit: str) -> str:
-    """A unit as a page shows it; nothing for a pure number.
+    """Return a unit as it is shown to readers; the unit of a pure number is the empty text.
 
     >>> written("um^3"), written("kg/m^3"), written("percent"), written("1")
     ('µm³', 'kg/m³', '%', '')
     """
-    if unit == "1":
-        return ""
-    text = {"percent": "%", "gram_force": "gf"}.get(unit, unit)
-    text = re.sub(r"\bu(?=[a-z])", "µ", text)
-    return raised(text)
+    text = {"1": "", "percent": "%", "gram_force": "gf"}.get(unit, unit)
+    return raised(re.sub(r"\bu(?=[a-z])", "µ", text))

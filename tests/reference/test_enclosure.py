@@ -1,4 +1,4 @@
-"""What is called proven of a function over a box is true of every point that is tried."""
+"""Everything that is proven of a function over a box is true at every point that is tried."""
 
 from collections.abc import Callable
 from fractions import Fraction as F
@@ -19,7 +19,7 @@ EXACT = Rationals()
 
 
 def stairs(ar: Any, x: Any) -> Any:
-    """0 below 1/3, 1 below 3/2, then 3: jumps, as the depth of a sheet's last row does."""
+    """0 below 1/3, 1 below 3/2, then 3: it jumps, as does the depth in the sheet's last row."""
     steps = [(0, None, F(1, 3)), (1, F(1, 3), F(3, 2)), (3, F(3, 2), None)]
     return ar.hull([
         ar.number(height)
@@ -69,7 +69,7 @@ def at(name: str, *point: F) -> F:
 
 
 def values_over(name: str, box: Box) -> dict[tuple[F, ...], F]:
-    """What a function is at points all over a box of one input or two, its corners among them."""
+    """The values of a function at points of a box of one or two inputs, including its corners."""
     count = 60 if len(box) == 1 else 8
     points = product(*(samples(*ends, count) for ends in box.values()))
     return {point: at(name, *point) for point in points}
@@ -115,17 +115,17 @@ def test_a_search_finds_a_point_or_proves_that_there_is_none(
         )
     if name == "stairs" or name not in OF_ONE:
         return
-    # Undecided are only coincidences: a target that is a point, or touched at its very end.
+    # Only coincidences may stay undecided: a target that is a point, or that is just touched.
     deep = [x for x in values if target.encloses(x - F(1, 10**4), x + F(1, 10**4))]
     far = all(target.excludes(x - F(1, 10), x + F(1, 10)) for x in values)
     assert point is not None or not deep
-    # A narrow target may lie between two samples: then a point of it has been found.
+    # A narrow target may lie between the values of two samples: then a point was found.
     assert outcome is not None or not far or target.is_point
 
 
 @settings(max_examples=150)
 @given(name=st.sampled_from(OF_ONE), search=searches(), target=targets())
-def test_solutions_are_inside_and_nothing_else_is(
+def test_inner_parts_are_solutions_and_nothing_outside_the_outer_parts_is(
     name: str, search: tuple[F, F], target: Interval
 ) -> None:
     result = solve(FUNCTIONS[name], "x", search, target)
@@ -143,9 +143,9 @@ def test_solutions_are_inside_and_nothing_else_is(
         assert open_ <= (search[1] - search[0]) / 20, "what is left undecided"
 
 
-def found(*asked: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]) -> bool | None:
-    """What a search for a point comes to; what is found meets every constraint."""
-    constraints = [(function, Interval(F(low), F(high))) for function, low, high in asked]
+def found(*limits: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]) -> bool | None:
+    """The outcome of a search for a point; a point that is found satisfies every constraint."""
+    constraints = [(function, Interval(F(low), F(high))) for function, low, high in limits]
     outcome, point = satisfying(constraints, box, budget)
     assert (outcome is True) == (point is not None)
     if point is not None:

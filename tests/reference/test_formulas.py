@@ -1,4 +1,4 @@
-"""Equations and computations: read, calculated, checked and shown as they stand in the report."""
+"""Equations and computations are read, evaluated, checked and shown as the report prints them."""
 
 import re
 from fractions import Fraction as F
@@ -21,7 +21,7 @@ LEDGER = load()
 VALUES = {
     name: F(7 + 3 * k, 5 + 2 * k) if name != "n" else F(2) for k, name in enumerate(LEDGER.symbols)
 }
-"""A number above 1 for every symbol; n is an exponent."""
+"""A number above 1 for every symbol; n is an exponent, and so a Fraction."""
 
 
 def value(node: Node, **more: Any) -> float:
@@ -99,14 +99,14 @@ def test_every_computation_is_a_formula_or_a_function_and_computes_something() -
 
 
 def in_other_units(unit: str) -> float:
-    """The factor to units of which the kilogram, metre and second hold 2, 3 and 5."""
+    """The factor to units that are 1/2 kg, 1/3 m and 1/5 s."""
     powers = unit_dimension(unit).powers
     return prod(size ** float(power) for size, power in zip((2, 3, 5), powers, strict=True))
 
 
 @pytest.mark.parametrize("claim", LEDGER.claims.values(), ids=lambda claim: claim.id)
 def test_a_computation_takes_the_claims_inputs_and_gives_its_unit(claim: Claim) -> None:
-    """What measures something is the same in other units: each input, and so the result."""
+    """With every input in other units, the result is the same quantity in these units."""
     point = {name: float(LEDGER.value(name)) for name in claim.entries}
     changed = {name: x * in_other_units(LEDGER.unit(name)) for name, x in point.items()}
     for reading, own in claim.computations.items():
@@ -129,5 +129,5 @@ def test_reals_lie_within_narrow_intervals(claim: Claim) -> None:
             value = real if isinstance(real, F) else F(*real.as_integer_ratio())
             low, high = enclose(function, {name: (x, x) for name, x in point.items()}).ends
             assert low <= value <= high
-            # 30 digits, of which the sheet's many rows and the verified root's margin leave 15.
+            # Of 30 digits, the sheet's many rows and the verified root's margin leave 15.
             assert high - low <= abs(value) * F(1, 10**15)

@@ -1,4 +1,4 @@
-"""The exact motion: its ends and its digits; `test_models.py` compares ours with it."""
+"""The exact motion: its ends and its digits; `test_models.py` compares the models with it."""
 
 from fractions import Fraction as F
 from itertools import product
@@ -11,8 +11,6 @@ from reference.motion import Trajectory
 SHALLOW = (F(500), F(11, 10**6), F(8900), F(7850), F(35 * 10**8))
 DEEP = (F(1500), F(11, 10**6), F(8900), F(7850), F(21 * 10**8))
 CASES = {"ends below the radius": SHALLOW, "crosses the radius": DEEP}
-
-
 CLOSE = mpmath.mpf(10) ** -25
 
 
@@ -45,5 +43,5 @@ def test_more_digits_change_nothing(extreme: str) -> None:
     place, value = EXTREMES[extreme]
     case = [*SHALLOW[:place], value, *SHALLOW[place + 1 :]]
     few, many = Trajectory(*case, digits=30), Trajectory(*case, digits=60)
-    for first, two in ((few.final_depth, many.final_depth), (few.stop_time(), many.stop_time())):
-        assert abs(many.context.convert(first) / two - 1) < mpmath.mpf(10) ** -28
+    for short, long in ((few.final_depth, many.final_depth), (few.stop_time(), many.stop_time())):
+        assert abs(many.context.convert(short) / long - 1) < mpmath.mpf(10) ** -28

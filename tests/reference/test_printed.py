@@ -41,7 +41,7 @@ MODES = {
 
 @st.composite
 def texts(draw: st.DrawFn) -> tuple[str, int, int | None]:
-    """A printed number, which of its quanta is meant, and how many digits, if those are counted."""
+    """A printed number, the index of its quantum, and its significant digits if these are fixed."""
     forms = ["decimal", "whole", "{}E{:+03d}", "{} × 10^{}", r"-{} \times 10^{{{}}}"]
     form = draw(st.sampled_from(forms))
     digits = draw(st.integers(0, 9999) | st.sampled_from([1, 10, 100, 1000]))
@@ -49,7 +49,7 @@ def texts(draw: st.DrawFn) -> tuple[str, int, int | None]:
     if form == "decimal":
         return "-" * draw(st.booleans()) + f"{digits / 10**places:.{places}f}", 0, None
     digits = max(digits, 1)
-    if form == "whole":  # zeros at its end may be no digits
+    if form == "whole":  # zeros at its end may not be significant
         text = str(digits * 10**places)
         place = draw(st.integers(0, len(text) - len(text.rstrip("0"))))
         return text, place, len(text) - place if place else None
@@ -60,7 +60,7 @@ def texts(draw: st.DrawFn) -> tuple[str, int, int | None]:
 
 EXACT = decimal.Context(99, traps=[decimal.Inexact])
 OFF = st.integers(-20, 20).flatmap(lambda k: st.sampled_from([F(k, 8), F(k, 80)]))
-"""How far off a value is, in last digits: ends of intervals and what is between."""
+"""The distance of a value from the printed one, in units of the last digit: ends and others."""
 
 
 @settings(max_examples=300)
@@ -96,7 +96,7 @@ def intervals(draw: st.DrawFn) -> Interval:
 
 
 BETWEEN = [F(k, 8) for k in range(-20, 21)]
-"""Every end that is drawn, and what lies between and beyond them."""
+"""All ends of the intervals that are drawn, and values between and beyond them."""
 
 
 @given(intervals(), intervals(), NUMBERS, NUMBERS)
