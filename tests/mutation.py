@@ -110,7 +110,6 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--sample", type=int, default=160)
     parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--processes", type=int, default=os.cpu_count())
     parser.add_argument("modules", nargs="*", default=CORE, help="such as reference/units.py")
     options = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_CPU, (LIMIT, LIMIT))  # inherited by each test process
@@ -120,7 +119,7 @@ def main() -> None:
     chosen = random.Random(options.seed).sample(everything, min(options.sample, len(everything)))
     print(f"{len(chosen)} of {len(everything)} mutants, seed {options.seed}", flush=True)
     killed = 0
-    with ThreadPoolExecutor(options.processes) as pool:
+    with ThreadPoolExecutor(os.cpu_count()) as pool:
         modules = sorted({module for module, _ in chosen})
         if not all(pool.map(lambda m: survives(m, sources[m], options.seed), modules)):
             parser.exit(2, "A test fails without a mutant, so nothing can be measured.\n")

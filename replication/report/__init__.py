@@ -38,9 +38,9 @@ def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
         "audit.md": markdown(record),
         "audit.csv": _csv(record),
         **{f"figures/{name}.svg": drawing for name, drawing in drawings.items()},
+        "audit.json": json_text(record),
     }
-    files = {name: text.encode() for name, text in texts.items()}
-    return {**beside, **files, "audit.json": json_text(record).encode()}
+    return {**beside, **{name: text.encode() for name, text in texts.items()}}
 
 
 _COLUMNS = (
@@ -103,7 +103,6 @@ def _arranged(record: Record) -> dict[str, Any]:
         "groups": groups,
         "names": names,
         "quantity": quantity,
-        "facts": lambda claim: words.facts(claim, names),
         "tables": words,
         "between": between,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
@@ -173,11 +172,13 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
     ]
     context = {
         "record": record,
-        "not_as_printed": words.not_as_printed(record, by_title=True),
+        "not_as_printed": words.not_as_printed(record),
         "main": Table("Main results", ("number", "printed", "computed", "verdict"), main),
         "shown": FINDINGS,
     }
-    return _terminal(Prose(TERMINAL, record.symbols, {}), context, width, strong)
+    by_title = TERMINAL._replace(known="{title}")
+    prose = Prose(by_title, record.symbols, words.names_of(record))
+    return _terminal(prose, context, width, strong)
 
 
 def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) -> str:

@@ -118,10 +118,10 @@ def _values(values: Mapping[str, float]) -> str:
     return ", ".join(f"`{name}` {number(value, 10)}" for name, value in values.items())
 
 
-def not_as_printed(record: r.Record, *, by_title: bool = False) -> Table:
+def not_as_printed(record: r.Record) -> Table:
     """Return what is printed and what follows instead, for each claim that fails or is undecided.
 
-    Each reading of an equation has a column; `by_title` names claims by their titles, not ids.
+    Each reading of an equation has a column.
     """
     claims = [claim for claim in record.claims if claim.verdict.is_open]
     needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
@@ -134,8 +134,7 @@ def not_as_printed(record: r.Record, *, by_title: bool = False) -> Table:
         if claim.id in needed:
             *_, last = names
             texts[last] = "derived: " * (not last) + " or ".join(needed[claim.id])
-        title = claim.title if by_title else f"`{claim.id}`"
-        rows.append((title, printed(claim), *(texts.get(name, "") for name in names)))
+        rows.append((f"`{claim.id}`", printed(claim), *(texts.get(name, "") for name in names)))
     heads = ("number", "printed", "computed as printed", *list(names)[1:])
     return Table("What does not come out as printed", heads, rows)
 

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from kept import spelled
 from running import coldspray
@@ -159,7 +159,6 @@ def arguments(draw: st.DrawFn, command: str) -> list[str]:
 
 
 @pytest.mark.parametrize("command", ["depth", "sheet", "history", "claims"])
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
 def test_any_arguments(command: str, folder: Path, data: st.DataObject) -> None:
     """Random arguments, for commands that end soon and write nothing."""
@@ -197,7 +196,6 @@ DOCUMENTS = st.one_of(
 )  # fmt: skip
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(DOCUMENTS)
 @example(b"\xef\xbb\xbf[impact]\nradius = 1e-6")
 @example(b"[impact]\nradius = " + b"9" * 4299)
@@ -206,7 +204,6 @@ def test_any_case_file(folder: Path, document: bytes) -> None:
     check(folder, "depth", "--json", "--case-file", "any.toml")
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(DOCUMENTS)
 def test_any_plan(folder: Path, document: bytes) -> None:
     (folder / "any.toml").write_bytes(document)

@@ -33,8 +33,7 @@ from replication import text as texts
 from replication.audit.audit import Audit, audit
 from replication.audit.record import Figure, Record, Verdict, filled, schema
 from replication.cases import BETA_5
-from replication.models import depth
-from replication.models.impact import Impact
+from replication.models.depth import final_depth
 from replication.report import contents, html
 from replication.report.figures import draw
 from replication.report.words import HTML as PAGE
@@ -151,10 +150,6 @@ def test_an_audit_elsewhere_has_the_same_bytes(tmp_path: Path) -> None:
 # Scatter of the particles, and the curve of Figure 5
 
 
-def ratio(impact: Impact) -> float:
-    return depth.final_depth(**impact.motion) / impact.radius
-
-
 def test_quantiles_of_each_law(record: Record) -> None:
     laws = {law.law.partition(":")[0]: law for law in record.scatter}
     sizes = NormalDist(22, 5.6)
@@ -162,7 +157,8 @@ def test_quantiles_of_each_law(record: Record) -> None:
         points = laws[law]
         sized = [500 * (22 / sizes.inv_cdf(1 - share)) ** power for share in points.shares]
         assert points.velocities == pytest.approx(sized, rel=1e-14)
-        assert points.ratios == [ratio(replace(BETA_5, velocity=v)) for v in points.velocities]
+        impacts = [replace(BETA_5, velocity=v) for v in points.velocities]
+        assert points.ratios == [final_depth(**i.motion) / i.radius for i in impacts]
         near = 22 - 1e-4, 22 + 1e-4  # to differentiate the law numerically at the mean size
         faster, slower = (500 * (22 / size) ** power for size in near)
         slope = (faster - slower) / (near[1] - near[0])
