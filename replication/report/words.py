@@ -125,18 +125,18 @@ def not_as_printed(record: r.Record) -> Table:
     """
     claims = [claim for claim in record.claims if claim.verdict.is_open]
     needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
-    names = dict.fromkeys(["", *(reading.name for claim in claims for reading in claim.readings)])
+    as_printed = "computed as printed"
+    readings = (reading.name for claim in claims for reading in claim.readings)
+    *_, last = heads = tuple(dict.fromkeys([as_printed, *readings]))
     rows = []
     for claim in claims:
-        values = {"": claim.computed, **{r.name: r.computed for r in claim.readings}}
+        values = {as_printed: claim.computed, **{x.name: x.computed for x in claim.readings}}
         texts = {name: f"{value:#.{significant(claim.printed)}g}"
                  for name, value in values.items() if value is not None}  # fmt: skip
         if claim.id in needed:
-            *_, last = names
-            texts[last] = "derived: " * (not last) + " or ".join(needed[claim.id])
-        rows.append((f"`{claim.id}`", printed(claim), *(texts.get(name, "") for name in names)))
-    heads = ("number", "printed", "computed as printed", *list(names)[1:])
-    return Table("What does not come out as printed", heads, rows)
+            texts[last] = "derived: " * (last == as_printed) + " or ".join(needed[claim.id])
+        rows.append((f"`{claim.id}`", printed(claim), *(texts.get(head, "") for head in heads)))
+    return Table("What does not come out as printed", ("number", "printed", *heads), rows)
 
 
 def significant(text: str) -> int:
@@ -345,7 +345,7 @@ class Prose:
 
     def __init__(self, form: Form, symbols: Iterable[str], names: Mapping[str, Named]) -> None:
         self.form, self.names = form, names
-        spelled: dict[str, tuple[str, str]] = {}
+        self._symbols: dict[str, str] = {}
         for symbol in symbols:
             base, _, below = symbol.partition("_")
             spellings = [base] if below else []
@@ -353,32 +353,31 @@ class Prose:
                 word = unicodedata.name(base).rpartition(" ")[2].capitalize()
                 spellings = [base, word] if base.isupper() else [base, word, word.lower()]
             for spelling in spellings:
-                spelled.setdefault(f"{spelling}_{below}".rstrip("_"), (base, below))
-        longest_first = sorted(spelled, key=lambda name: (-len(name), name))
-        self._spelled = spelled
+                typeset = form.lowered(base, below) if below else base
+                self._symbols.setdefault(f"{spelling}_{below}".rstrip("_"), typeset)
+        longest_first = sorted(self._symbols, key=lambda name: (-len(name), name))
         self._pattern = re.compile(
             rf"(?<![^\W\d])({'|'.join(map(re.escape, longest_first)) or '(?!)'})(?![A-Za-z_\d])"
         )
 
     def __call__(self, sentence: str) -> str:
-        form = self.form
+        parts = sentence.split("`")
+        parts[::2] = map(self._text, parts[::2])
+        parts[1::2] = map(self._reference, parts[1::2])
+        return "".join(parts)
 
-        def symbol(match: re.Match[str]) -> str:
-            base, below = self._spelled[match[1]]
-            return form.lowered(base, below) if below else base
+    def _text(self, text: str) -> str:
+        text = _SIGN.sub(lambda sign: _SIGNS.get(sign[0]) or superscript(sign[0][1:]), text)
+        text = self.form.escaped(powers_of_ten(text))
+        text = self._pattern.sub(lambda symbol: self._symbols[symbol[1]], text)
+        return _POWER.sub(self.form.power, text)
 
-        def part(k: int, text: str) -> str:
-            if k % 2:  # between backticks: an id
-                code = form.code.format(escape(text))
-                if text not in self.names:
-                    return code
-                title, anchor, _ = self.names[text]
-                return form.known.format(title=self(title), code=code, anchor=anchor)
-            text = _SIGN.sub(lambda sign: _SIGNS.get(sign[0]) or superscript(sign[0][1:]), text)
-            text = self._pattern.sub(symbol, form.escaped(powers_of_ten(text)))
-            return _POWER.sub(form.power, text)
-
-        return "".join(part(k, text) for k, text in enumerate(sentence.split("`")))
+    def _reference(self, name: str) -> str:
+        code = self.form.code.format(escape(name))
+        if name not in self.names:
+            return code
+        title, anchor, _ = self.names[name]
+        return self.form.known.format(title=self(title), code=code, anchor=anchor)
 
 
 _COMMANDS = {"leq": "≤ ", "geq": "≥ ", "quad": " ", "text": ""}
