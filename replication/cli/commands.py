@@ -29,7 +29,7 @@ def run_audit(options: argparse.Namespace) -> int:
 
         _put_json(json_text(schema()))
         return 0
-    # The audit makes many objects and no garbage: looking for it would take a tenth of the time.
+    # The audit makes little garbage; looking for it often would take a tenth of the time.
     gc.set_threshold(1_000_000)
     from replication import report
     from replication.audit.audit import audit
