@@ -1,6 +1,6 @@
-"""Make the pages of the public interface from its docstrings: python docs/api.py FOLDER.
+"""Make pages of the public interface from its docstrings: python docs/api.py FOLDER.
 
-Needs pdoc: pip install '.[docs]'. The examples on the pages are run by the tests.
+This needs pdoc: pip install '.[docs]'. The tests run the examples on the pages.
 """
 
 import sys
@@ -10,7 +10,7 @@ import pdoc
 
 import replication
 
-# Public names are loaded when they are first used; pdoc shows only what is loaded.
+# pdoc shows only names that are loaded, and these are loaded when they are first used.
 for name in replication.__all__:
     setattr(replication, name, getattr(replication, name))
 pdoc.pdoc("replication", "reference", "spreadsheets", output_directory=Path(sys.argv[1]))

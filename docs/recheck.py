@@ -1,13 +1,13 @@
-"""Check the verdicts of an audit without its program: a short program to read instead.
+"""Check the verdicts of an audit without the program that made it: a short program to read instead.
 
     python docs/recheck.py coldspray-audit/audit.json
 
-Only Python's standard library is used. Every verdict that exact fractions in the file decide is
-found again from them, also under the other conventions and for the other readings, and the verdicts
-are counted. Taken on trust: that the proven ranges are those of the report's formulas, and whether
-some inputs that print like the report's would do ("within input rounding" needs a search, not a
-range). Each difference is a line; the status is 0 if there is none, 1 if there are some, 2 for no
-audit.
+It uses only Python's standard library. It derives every verdict that the exact fractions in the
+file decide, also under the other conventions and for the other readings, and it counts the
+verdicts. Two things it takes on trust: that the proven ranges are those of the report's formulas,
+and whether some inputs that print like the report's would do ("within input rounding"), as that
+needs a search and not only a range. It prints a line for each difference. The exit status is 0 if
+there is none, 1 if there are some, and 2 if the file is not an audit.
 """
 
 import json
@@ -25,76 +25,76 @@ DECIMAL = re.compile(r"(\d+)\.(\d+)(?:E([+-]\d+))?")
 
 
 class Interval(NamedTuple):
-    """Two ends, and whether each belongs to it."""
+    """An interval: its two ends, and whether each end belongs to it."""
 
     low: Fraction | float
     high: Fraction | float
     low_closed: bool = True
     high_closed: bool = True
 
-    def has(self, value: Fraction | float) -> bool:
-        """Whether a value is in it."""
+    def contains(self, value: Fraction | float) -> bool:
+        """Return whether a value is in the interval."""
         above = self.low < value or (self.low == value and self.low_closed)
         return above and (value < self.high or (value == self.high and self.high_closed))
 
     def meets(self, another: "Interval") -> bool:
-        """Whether some value is in both."""
+        """Return whether some value is in both intervals."""
         low, high = max(self.low, another.low), min(self.high, another.high)
-        return low < high or (low == high and self.has(low) and another.has(low))
+        return low < high or (low == high and self.contains(low) and another.contains(low))
 
 
 def between(ends: list[str | None]) -> Interval:
-    """Fractions such as "1533/200"; null is infinite."""
+    """Read an interval from fractions such as "1533/200"; None is an infinite end."""
     low, high = ends
     return Interval(-inf if low is None else Fraction(low), inf if high is None else Fraction(high))
 
 
 def printing(claim: Table, rounding: str = "to nearest, ties away from zero") -> Interval:
-    """The values that print like a claim: for a decimal by its digits, else as the file says."""
-    text, said = claim["interval_text"], between(claim["interval_exact"])
-    said = said._replace(low_closed=text[0] != "(", high_closed=text[-1] != ")")
+    """Return the values that print like a claim: from its digits, or else as stated in the file."""
+    text, stated = claim["interval_text"], between(claim["interval_exact"])
+    stated = stated._replace(low_closed=text[0] != "(", high_closed=text[-1] != ")")
     digits = DECIMAL.fullmatch(claim["printed"])
-    by_digits = claim["kind"] not in ("approximation", "bound") and said.low != said.high
+    by_digits = claim["kind"] not in ("approximation", "bound") and stated.low != stated.high
     if not (digits and by_digits):
-        return said
+        return stated
     unit = Fraction(10) ** (int(digits[3] or 0) - len(digits[2]))
     value = int(digits[1] + digits[2]) * unit
     if rounding == "cut off":
         return Interval(value, value + unit, True, False)
-    # Just below a power of ten the digits of 1.00E+03 stand ten times closer.
-    low = said.low if said.low == value - unit / 20 else value - unit / 2
+    # Below a power of ten, such as 1.00E+03, numbers of as many digits are ten times closer.
+    low = stated.low if stated.low == value - unit / 20 else value - unit / 2
     is_even = value / unit % 2 == 0
-    ties = (is_even, is_even) if rounding.endswith("even") else said[2:]
+    ties = (is_even, is_even) if rounding.endswith("even") else stated[2:]
     return Interval(low, value + unit / 2, *ties)
 
 
 def judged(part: Table, target: Interval) -> Iterator[str]:
-    """Whether a claim, a reading of it or a convention has the verdict of its proven range."""
+    """Yield what contradicts the proven range in a claim, a reading of it, or a convention."""
     proven, verdict = between(part["enclosure_exact"]), part["verdict"]
-    inside = target.has(proven.low) and target.has(proven.high)
+    inside = target.contains(proven.low) and target.contains(proven.high)
     follows = "reproduced" if inside else "neither" if target.meets(proven) else "not reproduced"
-    # Of inputs that print alike, some may do even where the range reaches beyond the interval.
-    searched = verdict in ("reproduced within input rounding", "undecided")
-    if follows != verdict and (follows == "not reproduced" or not searched):
+    # These two verdicts rest on a search, unless the range and the interval have nothing in common.
+    by_search = verdict in ("reproduced within input rounding", "undecided")
+    if follows != verdict and (follows == "not reproduced" or not by_search):
         yield f"its range says {follows!r}, not {verdict!r}"
     low, high = between(part["enclosure"])[:2]  # doubles
     if not low <= proven.low <= proven.high <= high:
         yield f"{low} to {high} does not contain {proven.low} to {proven.high}"
     if "computed" in part:
         value = Fraction(part["computed"])
-        last = abs(value) / 10**15  # a double may be off in its last digits
-        if not proven.low - last <= value <= proven.high + last:
+        slack = abs(value) / 10**15  # the last digits of a double may be wrong
+        if not proven.low - slack <= value <= proven.high + slack:
             ends = f"{float(proven.low)} to {float(proven.high)}"
             yield f"the computed {part['computed']} is not within {ends}"
 
 
 def without_a_range(claim: Table, claims: dict[str, Table], constants: Table) -> tuple[str, ...]:
-    """The verdicts that a claim may have of which no range is proven."""
+    """Return the verdicts that are possible for a claim without a proven range."""
     own = printing(claim)
-    if claim["restates"]:  # one value prints like both
+    if claim["restates"]:  # consistent if some value prints like both
         agrees = own.meets(printing(claims[claim["restates"]]))
         return ("consistent" if agrees else "inconsistent",)
-    if claim["id"] in constants:  # right if it alone passes the checks of its equation
+    if claim["id"] in constants:  # reproduced if no other value passes the checks of its equation
         needed = constants[claim["id"]]
         if len(needed) != 1:
             return ("not checkable", "undecided")
@@ -102,14 +102,14 @@ def without_a_range(claim: Table, claims: dict[str, Table], constants: Table) ->
     if claim["sources"]:
         agrees = any(source["agrees"] for source in claim["sources"])
         return ("agrees with public sources" if agrees else "differs from public sources",)
-    if claim["shown_by"]:  # chosen so that what is computed from it comes out as printed
-        agrees = between(claim["shown_by"]["interval"]).has((own.low + own.high) / 2)
+    if claim["shown_by"]:  # a choice, consistent if numbers computed from it come out as printed
+        agrees = between(claim["shown_by"]["interval"]).contains((own.low + own.high) / 2)
         return ("consistent" if agrees else "inconsistent",)
-    return ("consistent", "not checkable")  # a count, or nothing that decides it
+    return ("consistent", "not checkable")  # a count, or a number that nothing decides
 
 
 def of_claim(claim: Table, claims: dict[str, Table], constants: Table) -> Iterator[str]:
-    """What is wrong with a claim."""
+    """Yield what is wrong with a claim."""
     if claim["interval_exact"] is None:
         if claim["verdict"] != "remark, quantified":
             yield "has a verdict and no interval"
@@ -130,22 +130,22 @@ def of_claim(claim: Table, claims: dict[str, Table], constants: Table) -> Iterat
 
 
 def differences(audit: Table) -> Iterator[str]:
-    """A line for each verdict or count that does not follow from the fractions beside it."""
+    """Yield a line for each verdict or count that does not follow from the file's fractions."""
     claims = {claim["id"]: claim for claim in audit["claims"]}
     constants = {c["claim"]: c["needed"] for e in audit["equations"] for c in e["constants"]}
     for name, claim in claims.items():
         yield from (f"{name}: {problem}" for problem in of_claim(claim, claims, constants))
     counts = Counter(claim["verdict"] for claim in audit["claims"])
     for verdict in audit["summary"] | counts:
-        said = audit["summary"].get(verdict, 0)
-        if said != counts[verdict]:
-            yield f"summary: {said} claims are said to be {verdict!r}, {counts[verdict]} are"
+        stated = audit["summary"].get(verdict, 0)
+        if stated != counts[verdict]:
+            yield f"summary: {stated} claims are said to be {verdict!r}, {counts[verdict]} are"
     if audit["counts"]["reproduced"] != counts["reproduced"]:
         yield f"counts: {audit['counts']['reproduced']} are said to be reproduced"
 
 
 def main() -> int:
-    """Read the file that is named, and print the differences."""
+    """Print the differences in the file named on the command line, and return the exit status."""
     if len(sys.argv) != 2:
         print("usage: python recheck.py audit.json", file=sys.stderr)
         return 2
@@ -153,7 +153,7 @@ def main() -> int:
         audit = json.loads(Path(sys.argv[1]).read_text("utf-8"))
         lines = list(differences(audit))
     except (OSError, ValueError, KeyError, TypeError, AttributeError) as error:
-        print(f"{sys.argv[1]!r} is no audit that can be read: {error!r}", file=sys.stderr)
+        print(f"{sys.argv[1]!r} is not a readable audit: {error!r}", file=sys.stderr)
         return 2
     print(*lines, f"{len(audit['claims'])} claims, {len(lines)} differences", sep="\n")
     return 1 if lines else 0

@@ -1,6 +1,6 @@
-"""What the report computed, re-run in IEEE doubles, and the audit of every number it prints.
+"""The report's computations, re-run in IEEE doubles, and the audit of every number it prints.
 
-The public names are those of `__all__`; each is loaded when it is first used.
+The public names are those of `__all__`. Each is imported when it is first used.
 """
 
 from importlib import import_module
@@ -44,7 +44,7 @@ _HOMES = {"BETA_3": "cases", "BETA_5": "cases", "Impact": "models.impact", "run"
 def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    if name == "audit":  # the package itself can be called
+    if name == "audit":  # this package is itself callable
         return import_module(f"{__name__}.audit")
     return getattr(import_module(f"{__name__}.{_HOMES.get(name, 'models.arrays')}"), name)
 

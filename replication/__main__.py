@@ -1,4 +1,4 @@
-"""`python -m replication` is `coldspray`."""
+"""Run the command `coldspray` as `python -m replication`."""
 
 import sys
 

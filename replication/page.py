@@ -1,4 +1,4 @@
-"""The templates of a package, filled; and what the head of every page has."""
+"""Fill the templates of a package, and write the head that every HTML page shares."""
 
 from base64 import b64encode
 from collections.abc import Mapping
@@ -8,34 +8,35 @@ from typing import Any
 
 
 def filled(package: str, name: str, parts: Mapping[str, Any], filters: Mapping[str, Any]) -> str:
-    """A template that stands beside a package's modules, filled with parts.
+    """Fill a template from a package's folder with `parts`.
 
-    All that an HTML template shows is escaped, unless it is Markup.
+    HTML templates escape every value that is not Markup.
     """
     from jinja2 import Environment, PackageLoader, StrictUndefined
 
     environment = Environment(
         loader=PackageLoader(package, ""),
-        autoescape=lambda name: str(name).endswith(".html.j2"),  # noqa: S701  (all HTML there is)
+        autoescape=lambda name: str(name).endswith(".html.j2"),  # noqa: S701  (only HTML needs it)
         undefined=StrictUndefined,
         trim_blocks=True,
         lstrip_blocks=True,
-        optimized=False,  # the templates hold no constant expressions that this could compute
+        optimized=False,  # there are no constant expressions to compute beforehand
     )
     environment.filters |= filters
     return environment.get_template(name).render(parts)
 
 
 def head(*packages: str) -> str:
-    """How a page's head begins, as Markup: with the style sheets of these packages.
+    """Write the start of a page's <head>, with the style sheets of these packages, as Markup.
 
-    The content policy forbids scripts and all from outside, and names the style by its hash.
+    The content security policy forbids scripts and everything loaded from outside. It allows the
+    style sheet by its hash.
     """
     from markupsafe import Markup
 
     style = "".join((resources.files(name) / "page.css").read_text("utf-8") for name in packages)
     digest = b64encode(sha256(style.encode()).digest()).decode()
-    return Markup(  # noqa: S704  (our own files)
+    return Markup(  # noqa: S704  (the files are part of this program)
         f"""\
 <meta charset="utf-8">
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; \

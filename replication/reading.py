@@ -1,4 +1,4 @@
-"""Reading what a user wrote (files, TOML, numbers with units), and quoting it in one line."""
+"""Read what a user wrote (files, TOML, numbers with units), and quote it in one line."""
 
 import re
 import sys
@@ -13,22 +13,21 @@ from reference.units import same_dimension, to_si
 
 
 def quoted(text: object, longest: int = 60) -> str:
-    r"""What a user wrote, as a message may show it: one line, texts with quotes, shortened.
+    r"""Quote what a user wrote in a message: shortened, on one line, texts in quotation marks.
 
     >>> quoted("\x1b[31m5 m\n")
     "'\\x1b[31m5 m\\n'"
     """
-    # Python refuses to write out whole numbers of thousands of decimal digits.
-    shown = hex(text) if isinstance(text, int) and abs(text) >= 10**longest else str(text)
-    part = shown[:longest]
-    end = "" if part == shown else "..."
-    return f"{repr(part) if type(text) is str else one_line(part)}{end}"
+    # Python refuses to convert integers of thousands of digits to decimal text.
+    whole = hex(text) if isinstance(text, int) and abs(text) >= 10**longest else str(text)
+    start = whole[:longest]
+    return (repr(start) if type(text) is str else one_line(start)) + "..." * (start != whole)
 
 
 def one_line(message: str, longest: int = 340) -> str:
-    r"""A message as one line without control characters; if it is too long, without its middle.
+    r"""Write a message as one line without control characters; cut the middle if it is too long.
 
-    Its end says what would be right, and is kept; what the user wrote, maybe long, stands before.
+    The end is kept, as it says what would be right. The user's own text, maybe long, comes before.
 
     >>> one_line("no file\x07 of\nthis name"), one_line("no " + 99 * "x" + ": choose one", 30)
     ('no file\\x07 of this name', 'no xxxxxxxxxx...xx: choose one')
@@ -40,7 +39,7 @@ def one_line(message: str, longest: int = 340) -> str:
 
 
 def printable(text: str) -> str:
-    r"""Text in which Python's escapes stand for all that moves a terminal, or is not seen.
+    r"""Replace characters that are invisible, or that control a terminal, by Python's escapes.
 
     >>> printable("a\nb\x1b[31m")
     'a\\nb\\x1b[31m'
@@ -50,7 +49,7 @@ def printable(text: str) -> str:
 
 @contextmanager
 def place(name: str) -> Iterator[None]:
-    """Put before the message of a ValueError where it was that something was wrong.
+    """Prefix the message of any ValueError raised in the block with the name of the place.
 
     >>> with place("--step"):
     ...     read_number("x", "s")
@@ -63,46 +62,46 @@ def place(name: str) -> Iterator[None]:
         raise ValueError(f"{name}: {error}") from error
 
 
-_SIZE = 2**20
-_DOTTED = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){20}""")
-"""A key of more than twenty parts; one of a megabyte would take hours to read."""
+_LARGEST_FILE = 2**20
+_DEEP_KEY = re.compile(rb"""(?:\.[ \t]*(?:[\w-]+|"[^"\n]*"|'[^'\n]*')[ \t]*){20}""")
+"""A dotted key of more than twenty parts: `tomllib` would take hours to read one of a megabyte."""
 
 
 def _parsed(content: bytes) -> dict[str, Any]:
-    if _DOTTED.search(content):
+    if _DEEP_KEY.search(content):
         raise ValueError("is nested too deep")
     try:
-        # Notepad and others put a byte order mark before it.
-        return tomllib.loads(content.decode("utf-8-sig"))
+        return tomllib.loads(content.decode("utf-8-sig"))  # some editors write a byte order mark
     except UnicodeDecodeError as error:
         raise ValueError("is not a TOML file: it is not UTF-8 text") from error
     except tomllib.TOMLDecodeError as error:
         raise ValueError(f"is not a TOML file: {one_line(str(error), 200)}") from error
     except RecursionError as error:
         raise ValueError("is nested too deep") from error
-    except ValueError as error:
-        most = sys.get_int_max_str_digits()
-        raise ValueError(f"holds a whole number of more than {most} digits") from error
+    except ValueError as error:  # from int()
+        digits = sys.get_int_max_str_digits()
+        raise ValueError(f"holds a whole number of more than {digits} digits") from error
 
 
 @contextmanager
 def tables_of(
     path: Path, wanted: Sequence[str], allowed: Sequence[str] = ()
 ) -> Iterator[tuple[dict[str, dict[str, Any]], bytes]]:
-    """The tables of a TOML file by name, and its bytes; a ValueError in the block names the file.
+    """Read the tables of a TOML file, and its bytes; a ValueError in the block names the file.
 
-    Raises OSError, or ValueError for what is no TOML or has other tables than these, or is large.
+    The file must have every table of `wanted`, and may have those of `allowed`. Raises OSError, or
+    ValueError if the file is too large, is not TOML, or has other tables.
     """
     if path.is_char_device():
         raise ValueError(f"{path} is a device, not a file")
     try:
         with path.open("rb") as file:
-            content = file.read(_SIZE + 1)
+            content = file.read(_LARGEST_FILE + 1)
     except OSError as error:
-        error.filename = str(path)  # an error of reading, unlike one of opening, does not name it
+        error.filename = str(path)  # an error while reading does not name the file by itself
         raise
-    if len(content) > _SIZE:
-        raise ValueError(f"{path} is larger than {_SIZE:,} bytes")
+    if len(content) > _LARGEST_FILE:
+        raise ValueError(f"{path} is larger than {_LARGEST_FILE:,} bytes")
     with place(str(path)):
         document = _parsed(content)
         for name, table in document.items():
@@ -115,7 +114,7 @@ def tables_of(
 def check_keys(
     table: Mapping[str, Any], wanted: Iterable[str] = (), allowed: Iterable[str] = ()
 ) -> None:
-    """Raise ValueError for a key that is neither wanted nor allowed, and for a missing one."""
+    """Raise ValueError if a key is neither wanted nor allowed, or if a wanted one is missing."""
     known = [*wanted, *allowed]
     for key in table:
         if key not in known:
@@ -132,14 +131,15 @@ _NUMBER = re.compile(
 
 
 def read_number(text: str, unit: str) -> float:
-    """A number with or without a unit, as SI; `unit` tells what it must measure.
+    """Read a number, with or without a unit, and convert it to SI.
 
-    Without a unit it is SI. Raises ValueError for no finite number, or one with another unit.
+    Without a unit it is taken as SI. `unit` is an SI unit of the quantity expected. Raises
+    ValueError if the text is not a finite number, or its unit measures another quantity.
 
     >>> read_number("0.5 ns", "s"), read_number("1.1e-5", "m")
     (5e-10, 1.1e-05)
     """
-    text = text.replace("\N{MINUS SIGN}", "-")  # as word processors write it
+    text = text.replace("\N{MINUS SIGN}", "-")  # word processors replace hyphens by it
     match = _NUMBER.fullmatch(text.strip()) if len(text) < 400 else None
     if match is None:
         raise ValueError(
@@ -151,8 +151,8 @@ def read_number(text: str, unit: str) -> float:
             f"{text!r}: write a decimal comma as a point, and thousands without a comma"
         )
     if given_unit and not same_dimension(given_unit, unit):
-        wrong = f"{given_unit} does not measure what {unit} does"
-        raise ValueError(f"{text!r}: {'give no unit' if unit == '1' else wrong}")
+        mismatch = f"{given_unit} does not measure what {unit} does"
+        raise ValueError(f"{text!r}: {'give no unit' if unit == '1' else mismatch}")
     try:
         return float(Fraction(match["number"]) * to_si(given_unit or "1"))
     except OverflowError as error:
@@ -160,9 +160,9 @@ def read_number(text: str, unit: str) -> float:
 
 
 def read_numbers(table: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, float]:
-    """The numbers of a table as SI; `units` has the keys that it may have, and what they measure.
+    """Read the numbers of a table and convert them to SI; `units` has a unit for every allowed key.
 
-    Raises ValueError that names the key.
+    Raises ValueError, which names the key.
 
     >>> read_numbers({"step": "0.5 ns"}, {"radius": "m", "step": "s"})
     {'step': 5e-10}

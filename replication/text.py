@@ -1,6 +1,6 @@
-"""Results as text: JSON and CSV with every digit; shortened numbers and tables for reading.
+"""Write results as text: JSON and CSV with all digits, and rounded numbers and tables for reading.
 
-A proven range never becomes narrower by being shortened.
+Rounding never makes a proven range narrower.
 """
 
 import re
@@ -15,7 +15,7 @@ from reference.units import superscript, written
 
 
 def json_text(record: Any) -> str:
-    r"""One JSON document, every float with all its digits; ValueError for one that is not finite.
+    r"""Write a JSON document, floats with all digits; raise ValueError if one is not finite.
 
     >>> json_text({"depth": 1e-06})
     '{\n  "depth": 1e-06\n}\n'
@@ -25,12 +25,12 @@ def json_text(record: Any) -> str:
     import msgspec
 
     compact = json.dumps(msgspec.to_builtins(record), ensure_ascii=False, allow_nan=False)
-    # A file's name may hold what no encoding has; escaped, it is JSON again.
+    # A file name may hold lone surrogates, which UTF-8 cannot encode but JSON can escape.
     return msgspec.json.format(compact.encode(errors="backslashreplace"), indent=2).decode() + "\n"
 
 
 def rows_csv(rows: Sequence[Mapping[str, Any]]) -> str:
-    r"""Records as CSV; floats keep all digits, None is an empty field, truth is true or false.
+    r"""Write records as CSV: floats with all digits, None as an empty field, bools in lower case.
 
     >>> rows_csv([{"depth": 1e-06, "beyond_radius": False, "gap": None}])
     'depth,beyond_radius,gap\n1e-06,false,\n'
@@ -47,7 +47,7 @@ def rows_csv(rows: Sequence[Mapping[str, Any]]) -> str:
 
 
 def number(value: float | Fraction, digits: int = 6) -> str:
-    """A number for reading, to some significant digits.
+    """Round a number to some significant digits.
 
     >>> number(7.669556888793411), number(3.5e9)
     ('7.66956', '3.5e+09')
@@ -56,16 +56,16 @@ def number(value: float | Fraction, digits: int = 6) -> str:
 
 
 def powers_of_ten(text: str) -> str:
-    """Numbers in a text with their powers of ten written out.
+    """Write the exponents in a text as powers of ten.
 
     >>> powers_of_ten("from 7.6e+09 to 1e-07")
     'from 7.6×10⁹ to 1×10⁻⁷'
     """
-    return re.sub(r"(?<=\d)e([-+]\d+)", lambda power: f"×10{superscript(str(int(power[1])))}", text)
+    return re.sub(r"(?<=\d)e([-+]\d+)", lambda match: f"×10{superscript(str(int(match[1])))}", text)
 
 
 def with_unit(text: str, unit: str) -> str:
-    """Text followed by its unit, if it has one.
+    """Append a unit as it is typed; the unit "1" adds nothing.
 
     >>> with_unit("7.67", "um"), with_unit("0.70", "1")
     ('7.67 um', '0.70')
@@ -74,7 +74,7 @@ def with_unit(text: str, unit: str) -> str:
 
 
 def quantity(text: str, unit: str) -> str:
-    """Text with its unit, as a page shows it.
+    """Append a unit as it is printed; the unit "1" adds nothing.
 
     >>> quantity("7.67", "um"), quantity("0.70", "1")
     ('7.67 µm', '0.70')
@@ -83,9 +83,9 @@ def quantity(text: str, unit: str) -> str:
 
 
 def between(ends: Sequence[float | Fraction | None], digits: int = 10, inward: bool = False) -> str:
-    """An interval as words, its ends rounded outward; or inward, so that all between lies inside.
+    """Write an interval with its ends rounded outward, or inward to stay inside the interval.
 
-    An end that is a short decimal number but for the rounding of doubles is shown as that number.
+    An end within `_ROUNDOFF` of a short decimal number is written as that number.
 
     >>> between((0.12374472967338257, 0.13081477249718315))
     '0.1237447296 to 0.1308147725'
@@ -94,34 +94,34 @@ def between(ends: Sequence[float | Fraction | None], digits: int = 10, inward: b
     >>> between((0.057999999999999996, 0.058))
     '0.058'
     """
-    shown = []
-    for end, up in zip(ends, (inward, not inward), strict=True):
+    texts = []
+    for end, is_up in zip(ends, (inward, not inward), strict=True):
         assert end is not None
-        text = number(end + 0, digits)  # no sign on a zero
-        if abs(Fraction(text) - Fraction(end)) > _OFF * abs(Fraction(end)):
-            text = rounded(Fraction(end), digits, ROUND_CEILING if up else ROUND_FLOOR)
-        shown.append(text)
-    return " to ".join(dict.fromkeys(shown))
+        text = number(end + 0, digits)  # -0.0 + 0 is 0.0, so that a zero has no sign
+        if abs(Fraction(text) - Fraction(end)) > _ROUNDOFF * abs(Fraction(end)):
+            text = rounded(Fraction(end), digits, ROUND_CEILING if is_up else ROUND_FLOOR)
+        texts.append(text)
+    return " to ".join(dict.fromkeys(texts))
 
 
-_OFF = Fraction(1, 2**51)
-"""By how much of itself a double may be off the exact end that it stands for: one that was rounded
-to a side by up to 2^-52, and in another unit by 2^-53 more."""
+_ROUNDOFF = Fraction(1, 2**51)
+"""The greatest relative difference between a double and the exact end it stands for: up to 2^-52
+from rounding it to one side, and up to 2^-53 from converting it to another unit."""
 
 
 def rounded(value: Fraction, digits: int, rounding: str) -> str:
-    """A number to some significant digits, rounded as one of the modes of `decimal` says.
+    """Round a number to some significant digits; `rounding` is a mode of the module `decimal`.
 
     >>> rounded(Fraction(2, 3), 3, ROUND_FLOOR)
     '0.666'
     """
     context = Context(prec=digits, rounding=rounding)
-    shortened = context.divide(Decimal(value.numerator), Decimal(value.denominator))
-    return f"{float(shortened):.{digits}g}"
+    quotient = context.divide(Decimal(value.numerator), Decimal(value.denominator))
+    return number(float(quotient), digits)
 
 
 class Table(NamedTuple):
-    """A table; the first cell of a row is its head."""
+    """A table with its caption and column heads; the first cell of each row is the row's head."""
 
     caption: str
     heads: tuple[str, ...]
@@ -131,20 +131,20 @@ class Table(NamedTuple):
 def aligned(
     rows: Sequence[tuple[str, ...]], widths: Sequence[int] = (), right: bool = False
 ) -> list[str]:
-    """Rows of texts as lines, each column as wide as its widest text if no widths are given.
+    """Write rows of texts as lines, with columns of these widths or as wide as their widest text.
 
-    `right`: all columns but the first stand to the right.
+    right: align all columns but the first to the right.
 
     >>> aligned([("a", "bc"), ("def", "g")])
     ['a    bc', 'def  g']
     """
     widths = widths or [max(map(len, column)) for column in zip(*rows, strict=True)]
-    ways = ["<", *(">" if right else "<") * len(widths)]
-    return ["  ".join(map("{:{}{}}".format, row, ways, widths)).rstrip() for row in rows]
+    sides = ["<", *(">" if right else "<") * len(widths)]
+    return ["  ".join(map("{:{}{}}".format, row, sides, widths)).rstrip() for row in rows]
 
 
 def numbers(heads: tuple[str, ...], rows: Iterable[Iterable[float | None]]) -> list[str]:
-    """Numbers to nine digits as lines, in columns under their heads.
+    """Write numbers, to nine digits, as lines in columns under their heads; None is left blank.
 
     >>> numbers(("row", "x", "v"), [(0, 0.5, None), (1, 0.25, 40.0)])
     ['row     x   v', '0     0.5', '1    0.25  40']
@@ -154,9 +154,10 @@ def numbers(heads: tuple[str, ...], rows: Iterable[Iterable[float | None]]) -> l
 
 
 def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
-    """Rows as columns within a width; what is too long goes on in the next line.
+    """Write rows in columns that together fit a width; cells that are too long are wrapped.
 
-    Heads give way first, then the widest column; words only where nothing else is left.
+    Columns are narrowed one character at a time. Those that are wide only because of the first row,
+    the heads, are narrowed first, then the widest. Words are broken only if nothing else is left.
 
     >>> print(columns([("a", "one two three"), ("bc", "four")], 14))
     a   one two
@@ -164,21 +165,23 @@ def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
     bc  four
     """
     texts = list(zip(*rows, strict=True))
-    words = [max(len(word) for cell in column for word in cell.split() or [""]) for column in texts]
-    below = [max([word, *map(len, cells[1:])]) for word, cells in zip(words, texts, strict=True)]
-    widths, room = [max(map(len, column)) for column in texts], width - 2 * (len(texts) - 1)
+    longest_words = [max(map(len, " ".join(cells).split() or [""])) for cells in texts]
+    body_widths = [
+        max([word, *map(len, cells[1:])]) for word, cells in zip(longest_words, texts, strict=True)
+    ]
+    widths = [max(map(len, cells)) for cells in texts]
 
-    def ease(k: int) -> tuple[bool, bool, int]:
-        """How readily a column gives way."""
-        return widths[k] > below[k], widths[k] > words[k], widths[k]
+    def readiness(k: int) -> tuple[bool, bool, int]:
+        """How readily column k is narrowed."""
+        return widths[k] > body_widths[k], widths[k] > longest_words[k], widths[k]
 
-    while sum(widths) > room and max(widths) > 1:
-        widest = max(range(len(widths)), key=ease)
-        widths[widest] -= 1
+    while sum(widths) > width - 2 * (len(widths) - 1) and max(widths) > 1:
+        widths[max(range(len(widths)), key=readiness)] -= 1
     lines = []
     for row in rows:
         cells = [
-            wrap(cell, w or 1, break_on_hyphens=False) for cell, w in zip(row, widths, strict=True)
+            wrap(cell, max(w, 1), break_on_hyphens=False)
+            for cell, w in zip(row, widths, strict=True)
         ]
         lines += aligned([*zip_longest(*cells, fillvalue="")], widths) or [""]
     return "\n".join(lines)

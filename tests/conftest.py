@@ -1,4 +1,4 @@
-"""What all tests share."""
+"""Settings and a fixture shared by all tests."""
 
 import pytest
 from hypothesis import settings
@@ -6,7 +6,7 @@ from hypothesis import settings
 from replication.audit.audit import audit
 from replication.audit.record import Record
 
-# No test may depend on how fast the machine is.
+# No deadline: a test must not depend on the speed of the machine.
 settings.register_profile("unhurried", deadline=None)
 # Chosen by `pytest --hypothesis-profile thorough`.
 settings.register_profile("thorough", deadline=None, max_examples=2000, derandomize=True)

@@ -1,9 +1,9 @@
-r"""Questions with kept answers, in texts that a person reads: `question -> answer`, a line each.
+r"""Read kept questions and answers: lines `question -> answer` in texts that a person can read.
 
-They stand beside the tests in sections, headed `# What`; many are what Python says to a line of it,
-which knows the names that the test gives. `⟨5000 x⟩` is an x five thousand times,
-and `⟨\x1b⟩` a character that no text shows.
-Whoever changes an answer of the program changes it there.
+Each folder of tests has such a text, in sections headed `# Title`. In many sections a question is a
+line of Python, which uses the names that the test provides, and the answer is its result.
+`⟨5000 x⟩` stands for 5000 letters x, and `⟨\x1b⟩` for an invisible character.
+If the program's answer changes on purpose, change it there.
 """
 
 import re
@@ -15,22 +15,22 @@ import pytest
 
 
 def pairs(text: str, section: str) -> list[tuple[str, str]]:
-    """The questions of a section, such as of `reference/kept.txt`, each with its answer."""
+    """Return the questions of a section, each with its answer; `text` is a path in `tests/`."""
     content = (Path(__file__).parent / text).read_text("utf-8")
     lines = content.partition(f"\n# {section}\n")[2].partition("\n# ")[0].splitlines()
-    asked = [line.partition(" -> ") for line in lines if " -> " in line]
-    assert asked, f"{text} has no section {section!r}"
-    return [(spelled(question.strip()), answer) for question, _, answer in asked]
+    parts = [line.partition(" -> ") for line in lines if " -> " in line]
+    assert parts, f"{text} has no section {section!r}"
+    return [(spelled(question.strip()), answer) for question, _, answer in parts]
 
 
 def kept(text: str, section: str) -> pytest.MarkDecorator:
-    """Give a test each question of a section, and its answer."""
+    """Parametrize a test with the questions of a section and their answers."""
     cases = [pytest.param(*pair, id=pair[0][:40]) for pair in pairs(text, section)]
     return pytest.mark.parametrize(("question", "answer"), cases)
 
 
 def calls(text: str, section: str, names: Mapping[str, Any]) -> Callable[[str, str], None]:
-    """A test that Python says the answers of a section, in which it knows these names."""
+    """Return a test that evaluates each question of a section as Python, with these names."""
 
     @kept(text, section)
     def test(question: str, answer: str) -> None:
@@ -40,7 +40,7 @@ def calls(text: str, section: str, names: Mapping[str, Any]) -> Callable[[str, s
 
 
 def spelled(text: str) -> str:
-    """A text with what stands in it many times, and no quotes around what begins with a blank."""
+    """Expand ⟨5000 x⟩ and ⟨\\x1b⟩, and remove the quotes that protect blanks at the ends."""
 
     def written_out(many: re.Match[str]) -> str:
         plain = many[2].encode("ascii", "backslashreplace").decode("unicode_escape")
@@ -51,7 +51,7 @@ def spelled(text: str) -> str:
 
 
 def said(answer: Callable[[], object]) -> str:
-    """An answer as text; or the one line that refuses to give it."""
+    """Return an answer as text, or "refused" with the message of the error that it raises."""
     try:
         return str(answer())
     except (ArithmeticError, LookupError, TypeError, ValueError) as error:

@@ -1,4 +1,4 @@
-"""What holds for every page that the program writes."""
+"""Check what must hold for every HTML page that the program writes."""
 
 import re
 from base64 import b64encode
@@ -12,7 +12,7 @@ HTML, SVG = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
 
 
 def sound(text: str) -> ET.Element:
-    """A page that is right HTML, runs and loads nothing; each reference leads to one place."""
+    """Check that a page is valid HTML, runs and loads nothing, and that every link has a target."""
     root: ET.Element = html5lib.HTMLParser(strict=True).parse(text)
     assert not list(root.iter(f"{HTML}script"))
     attributes = {name for element in root.iter() for name in element.attrib}

@@ -1,4 +1,4 @@
-"""Which room may import which: read from the source, not from what happens to be loaded."""
+"""Check which package imports which: in the source, not in what happens to be loaded."""
 
 import ast
 import subprocess
@@ -24,14 +24,14 @@ FLOORS: tuple[set[str], ...] = (
     {"cli"},
     {"__main__", ""},
 )
-"""The rooms, those of `replication` by their own names: each imports from lower floors only."""
+"""The packages, those in `replication` by their own names: each imports from lower floors only."""
 
 ONLY = {
     "spreadsheets": {"reference"},
     "audit": {"reference", "models", "text"},
-    "": {"audit", "cases", "models"},  # what `replication` itself hands on as its public names
+    "": {"audit", "cases", "models"},  # the homes of the public names of `replication`
 }
-"""Of what is below, all that these may import."""
+"""Packages that may import fewer than all lower floors, and which."""
 
 
 def module_of(path: Path) -> str:
@@ -42,7 +42,7 @@ MODULES = {module_of(path) for path in EVERY}
 
 
 def imports(nodes: Iterable[ast.AST]) -> Iterator[str]:
-    """Our modules, and other packages, that some parts of a file import."""
+    """Yield the modules of this project, and the other packages, that these nodes import."""
     for node in nodes:
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names)
@@ -60,9 +60,9 @@ def room(module: str) -> str:
 
 
 def ours(path: Path) -> set[str]:
-    """Our modules that a file imports anywhere in it; each must be there."""
-    everything = imports(ast.walk(ast.parse(path.read_text("utf-8"))))
-    own = {name for name in everything if name.partition(".")[0] in ROOMS}
+    """Return the modules of this project that a file imports anywhere; each must exist."""
+    imported = imports(ast.walk(ast.parse(path.read_text("utf-8"))))
+    own = {name for name in imported if name.partition(".")[0] in ROOMS}
     assert own <= MODULES, path
     return own
 
@@ -85,7 +85,7 @@ def test_arrows_run_down(path: Path) -> None:
 
 
 def test_no_circles_between_modules() -> None:
-    """But for what is loaded where it is used."""
+    """Imports inside functions are not counted."""
     loaded = {}
     for path in EVERY:
         top = ast.parse(path.read_text("utf-8")).body

@@ -1,4 +1,4 @@
-"""What the documents show is so: README, links, and the program that checks an audit."""
+"""The README's examples and numbers, links in the documents, and `docs/recheck.py`."""
 
 import copy
 import doctest
@@ -83,7 +83,7 @@ def test_links_and_paths_lead_somewhere(document: str) -> None:
         assert (ROOT / path).exists(), path
 
 
-# The program that checks an audit by its file alone, and notices what is tampered with
+# The program that checks an audit by its file alone
 
 PROGRAM = ROOT / "docs" / "recheck.py"
 differences = runpy.run_path(str(PROGRAM))["differences"]

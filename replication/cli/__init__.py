@@ -1,7 +1,8 @@
-"""The command `coldspray`: reads the command line, runs one command, says what went wrong.
+"""The command `coldspray`: read the command line, run one command, report what went wrong.
 
-What a command takes stands in `options.toml`; `run_depth` of `commands` does what `depth` is for.
-Only its own options are declared, and it imports what it needs, so that a light one starts fast.
+`options.toml` lists each command's options; `run_depth` in `commands` runs the command `depth`.
+Only the options of the command in use are declared, and each command imports what it needs, so that
+a light command starts fast.
 """
 
 import argparse
@@ -19,18 +20,19 @@ from typing import Any, NoReturn, TextIO
 from replication.reading import one_line, quoted
 
 COMMANDS = tomllib.loads((resources.files(__name__) / "options.toml").read_text("utf-8"))
-"""What each does and takes, in the order in which `coldspray --help` lists them."""
+"""The table of each command in `options.toml`, in the order of `coldspray --help`."""
 _EVERY = COMMANDS.pop("every")
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run one command; the exit status: 0, 1 if the command promises it, 2 if it cannot work.
+    """Run one command and return its exit status: 0, 1 or 2.
 
-    A status above 128 means, as for any program, that a signal ended it.
+    Each command says when it returns 1; with 2 it could not do its work. A status above 128 means,
+    as for any program, that a signal ended it.
     """
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            # Characters that a terminal's encoding lacks are escaped.
+            # Escape characters that the terminal's encoding lacks.
             stream.reconfigure(errors="backslashreplace")
     program = "coldspray"
     try:
@@ -42,14 +44,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:
-        _discard(sys.stdout)  # the reader of the pipe has seen enough; the status might have been 1
-        return 128 + 13  # as shells report a program that SIGPIPE ended
+        _discard(sys.stdout)
+        return 128 + 13  # what shells report for SIGPIPE; 0 or 1 might be untrue
     except KeyboardInterrupt as interrupt:
         _complain(program, "interrupted; no file is left in part")
         return 128 + (interrupt.args[0] if interrupt.args else signal.SIGINT)
     except OSError as error:
         if error.filename is None:
-            _discard(sys.stdout)  # its disk may be full
+            _discard(sys.stdout)  # writing to it failed: its disk may be full
         name, reason = error.filename2 or error.filename, error.strerror or str(error)
         _complain(program, f"{name}: {reason}" if name else reason)
         return 2
@@ -61,7 +63,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _complain(program: str, message: str) -> None:
-    """Tell the user, if anybody listens: the status says it, too."""
+    """Print a message to stderr. If that fails, the exit status still reports the error."""
     if sys.stderr is not None:
         try:
             print(f"{program}: {one_line(message)}", file=sys.stderr, flush=True)
@@ -70,16 +72,16 @@ def _complain(program: str, message: str) -> None:
 
 
 def _discard(stream: TextIO | None) -> None:
-    """Keep Python from trying again, when it ends, to write what could not be written."""
-    # Nobody has put another one in its place.
+    """Redirect a stream to nowhere: otherwise Python retries the failed write when it exits."""
+    # A stream that a caller has put in place of Python's own is left alone.
     if stream in (sys.__stdout__, sys.__stderr__) and stream is not None:
         os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def _end_as_interrupted() -> None:
-    """Have SIGTERM, and the loss of the terminal, end the program as Ctrl-C does: drafts removed.
+    """Let SIGTERM and SIGHUP end the program as Ctrl-C does, so that half-written files go.
 
-    A signal that is ignored, as after `nohup`, remains so.
+    A signal that is ignored, as under `nohup`, stays ignored.
     """
 
     def interrupt(number: int, _: object) -> NoReturn:
@@ -92,23 +94,23 @@ def _end_as_interrupted() -> None:
 
 
 class _Parser(argparse.ArgumentParser):
-    """An argument parser that says what is wrong in one line."""
+    """An argument parser that reports an error in one line."""
 
     def __init__(self, **settings: Any) -> None:
         super().__init__(**settings)
-        # A value such as -5m/s is no option, either: it is refused as what it is.
+        # Take -5m/s for a number, not for an option, so that the error is about the number.
         self._negative_number_matcher = re.compile(r"-\.?\d")
 
     def error(self, message: str) -> NoReturn:
         self.exit(2, f"{self.prog}: {one_line(message)} (see {self.prog} --help)\n")
 
     def _print_message(self, message: str, file: Any = None) -> None:
-        # argparse itself would ignore a full disk.
+        # argparse itself ignores a failed write, as to a full disk.
         print(message, end="", file=file or sys.stderr, flush=True)
 
 
 _DASHES = re.compile(r"(-\w|--[\w-]+=)--")
-"""Two dashes as an option's value: argparse drops them (CPython issue 59317)."""
+"""An option with the value `--`, which argparse drops (CPython issue 59317)."""
 
 
 def _options(arguments: Sequence[str]) -> argparse.Namespace:
@@ -124,13 +126,13 @@ def _options(arguments: Sequence[str]) -> argparse.Namespace:
         if name in arguments:
             from replication.cli import commands as home
 
-            _declare(command, takes | _EVERY | takes)  # its own first
+            _declare(command, takes | _EVERY | takes)  # its own come first, and prevail
             command.set_defaults(run=getattr(home, f"run_{name}"))
     for argument in arguments:
         if _DASHES.fullmatch(argument):
-            parser.error(f"{quoted(argument)}: two dashes are no value")
+            parser.error(f"{quoted(argument)}: two dashes are not a value")
     options, unknown = parser.parse_known_args(arguments)
-    if unknown:  # said by the command, whose help lists what it knows
+    if unknown:  # refer to the help of the command, not of `coldspray`
         commands.choices[options.command].error(f"unrecognized arguments: {' '.join(unknown)}")
     return options
 
@@ -165,14 +167,14 @@ def _declare(command: argparse.ArgumentParser, takes: dict[str, Any]) -> None:
 
 
 def _declare_inputs(command: argparse.ArgumentParser, default: str) -> None:
-    """--case, --case-file and every input of a case."""
+    """Declare --case, --case-file and every input of a case."""
     from replication.cases import INPUTS
 
     group = command.add_argument_group(
         "the case",
-        "Inputs not given are the named case's; a resistance replaces beta and flow stress. "
-        "Step and stop velocity are those of the sheet. A plain number is in the unit "
-        'shown; others are understood, such as "11 um", "98 ksi" and "0.2 ns".',
+        "Inputs not given are those of the named case. A resistance replaces beta and flow "
+        "stress. Step and stop velocity concern the sheet. A plain number is in the unit shown; "
+        'others are understood, such as "11 um", "98 ksi" and "0.2 ns".',
     )
     group.add_argument("--case", metavar="NAME", help=f"beta-5 or beta-3 (default: {default})")
     group.add_argument("--case-file", type=_path, metavar="FILE", help="TOML, table [impact]")
@@ -182,7 +184,7 @@ def _declare_inputs(command: argparse.ArgumentParser, default: str) -> None:
 
 
 def _path(text: str) -> Path:
-    """A path from the command line; the empty text of an unset variable is not this folder."""
+    """Read a path. An empty text, as from an unset variable, must not mean the current folder."""
     if not text or "\0" in text:
         raise argparse.ArgumentTypeError(f"give a path, not {quoted(text)}")
     return Path(text)
@@ -199,13 +201,13 @@ def _share(text: str) -> float:
 
 
 def _whole(least: int = 0, most: int = 0) -> Callable[[str], int]:
-    """A reader of whole numbers within bounds, if the command itself does not bound them."""
-    which = f"from {least:,} to {most:,}" if most else "of at most 20 digits, without a sign"
+    """Return a reader of whole numbers within bounds; without `most`, of up to 20 digits."""
+    allowed = f"from {least:,} to {most:,}" if most else "of at most 20 digits, without a sign"
 
     def read(text: str) -> int:
         if re.fullmatch(r"\s*[0-9]{1,20}\s*", text) and least <= int(text) <= (most or 10**20):
             return int(text)
-        raise argparse.ArgumentTypeError(f"give a whole number {which}, not {quoted(text)}")
+        raise argparse.ArgumentTypeError(f"give a whole number {allowed}, not {quoted(text)}")
 
     return read
 

@@ -1,4 +1,4 @@
-"""What the commands do, a function each, which returns the exit status; and how they print."""
+"""The commands, one function each, which returns the exit status; and how they print."""
 
 import argparse
 import codecs
@@ -29,29 +29,26 @@ def run_audit(options: argparse.Namespace) -> int:
 
         _put_json(json_text(schema()))
         return 0
-    gc.disable()  # looking for garbage would take a tenth of the time
-    try:
-        from replication import report
-        from replication.audit.audit import audit
-        from replication.error import hard_cases
-        from replication.workbook import build
-        from spreadsheets import emit
-        from spreadsheets.safely import check_folder, write_folder
+    # The audit makes little garbage; looking for it often would take a tenth of the time.
+    gc.set_threshold(1_000_000)
+    from replication import report
+    from replication.audit.audit import audit
+    from replication.error import hard_cases
+    from replication.workbook import build
+    from spreadsheets import emit
+    from spreadsheets.safely import check_folder, write_folder
 
-        check_folder(options.out, report.FILES)
-        workbook = options.out / "workbook.xlsx"
-        if workbook.exists():
-            emit.check(workbook, force=options.force)
-        record = audit()
-        beside = {
-            "workbook.xlsx": build(record=record).to_bytes(),
-            "hard-cases.txt": hard_cases.text(hard_cases.record(1000, seed=1)).encode(),
-        }
-        written = report.contents(record, beside)
-        write_folder(options.out, written)
-    finally:
-        gc.freeze()  # what is left over ends with the process
-        gc.enable()
+    check_folder(options.out, report.FILES)
+    workbook = options.out / "workbook.xlsx"
+    if workbook.exists():
+        emit.check(workbook, force=options.force)
+    record = audit()
+    beside = {
+        "workbook.xlsx": build(record=record).to_bytes(),
+        "hard-cases.txt": hard_cases.text(hard_cases.record(1000, seed=1)).encode(),
+    }
+    written = report.contents(record, beside)
+    write_folder(options.out, written)
     if options.json:
         _put_json(written["audit.json"].decode())
     elif not options.quiet:
@@ -61,7 +58,7 @@ def run_audit(options: argparse.Namespace) -> int:
 
 
 def run_claims(options: argparse.Namespace) -> int:
-    """List the ledger, without verdicts; or prove one claim."""
+    """List the claims of the ledger, without verdicts, or prove one claim."""
     from reference.ledger import load
 
     ledger = load()
@@ -90,15 +87,15 @@ def run_claims(options: argparse.Namespace) -> int:
         return _put(options, proven, lambda: proof(proven, ledger, _width(), _may_emphasize()))
     from difflib import get_close_matches
 
-    near = ", ".join(get_close_matches(options.id[:80], list(claims), cutoff=0.4))
-    hint = f"near it: {near}" if near else "`coldspray claims` lists them"
+    similar = ", ".join(get_close_matches(options.id[:80], list(claims), cutoff=0.4))
+    hint = f"similar ones: {similar}" if similar else "`coldspray claims` lists them"
     if options.id in ledger.equations:
         hint = "it is an equation: the page of `coldspray audit` has it"
     raise ValueError(f"there is no claim {quoted(options.id)}; {hint}")
 
 
 def run_power(options: argparse.Namespace) -> int:
-    """Print the rates: of all, by kind of entry and by kind of edit; then what was not noticed."""
+    """Print how many misprints are noticed, by kind of entry and of edit, and which are not."""
     from reference.ledger import load
     from replication.power import power
 
@@ -106,8 +103,8 @@ def run_power(options: argparse.Namespace) -> int:
     result = power(load(), options.sample, options.seed, progress)
     table = result.table()
     lines = [
-        f"{result.planted} misprints, one at a time; {result.invisible} cannot be seen, as all",
-        "numbers that the audit relates still agree. Of the others, in percent:",
+        f"{result.planted} misprints, planted one at a time; {result.invisible} cannot be noticed,",
+        "as all numbers that the audit relates still agree. Of the others, in percent:",
         "",
         *aligned([table.heads, *table.rows]),
     ]
@@ -118,7 +115,7 @@ def run_power(options: argparse.Namespace) -> int:
 
 
 def run_workbook(options: argparse.Namespace) -> int:
-    """Write the workbook of the report, or of a case, and verify it if asked to."""
+    """Write the workbook of the report, or of a case if one is named, and verify it if asked to."""
     from replication import workbook
     from spreadsheets import emit, engines
     from spreadsheets.safely import write_bytes
@@ -127,8 +124,8 @@ def run_workbook(options: argparse.Namespace) -> int:
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
         raise ValueError(f"{options.output}: a workbook's name ends in .xlsx")
-    named = [getattr(options, name) for name in ("case", "case_file", *INPUTS)]
-    case = None if all(value is None for value in named) else _case(options)
+    given = [getattr(options, name) for name in ("case", "case_file", *INPUTS)]
+    case = None if all(value is None for value in given) else _case(options)
     book = workbook.build(case, options.scheme, options.rows)
     write_bytes(options.output, book.to_bytes())
     checks = [
@@ -150,13 +147,14 @@ def run_workbook(options: argparse.Namespace) -> int:
 
 
 _LEGEND = """\
-Cells are formulas. Rounded are those that differ in their last digits only: those that pass through
-LN, SIN, ASIN or a cube root, within the rounding of that chain; and, of an engine of long doubles,
-those within {bound:.1e} of the largest number of their column, a proven bound on our rounding."""
+Cells: formulas. Rounded: those that differ in their last digits only. Either they pass through LN,
+SIN, ASIN or a cube root and differ within the rounding of that chain, or the engine computes in
+long doubles and they differ by at most {bound:.1e} of the largest number of their column, a proven
+bound on our rounding."""
 
 
 def _verified(checks: "Sequence[EngineCheck]", bound: float) -> Iterator[str]:
-    """A line for each engine, then its wrong cells, what the columns mean, and the outcome."""
+    """Yield a table of engines, their wrong cells, what the columns mean, and the outcome."""
     rows: list[tuple[str, ...]] = [("engine", "outcome", "seconds", "cells", "rounded", "wrong")]
     for check in checks:
         seconds = "" if check.seconds is None else f"{check.seconds:.2f}"
@@ -195,7 +193,7 @@ def run_sheet(options: argparse.Namespace) -> int:
     }
 
     def text() -> str:
-        """The rows, then what the report reads off the last."""
+        """Write the rows, and the results that the report reads from the last row."""
         heads = "row", "time [ns]", "initial [m/s]", "x [um]", "deceleration [m/s2]", "final [m/s]"
         rows = enumerate(sheet.rows)
         table = ((k, time * 1e9, v, x * 1e6, a, final) for k, (time, v, x, a, final) in rows)
@@ -267,14 +265,9 @@ def run_converge(options: argparse.Namespace) -> int:
     warnings = (
         f"{level['step']!r} s: {doubt}" for level in record["levels"] for doubt in level["warnings"]
     )
-    rows = [
-        {
-            key: x
-            for key, x in (level | level["budget"]).items()
-            if key not in ("budget", "warnings")
-        }
-        for level in record["levels"]
-    ]
+    rows = [level | level["budget"] for level in record["levels"]]
+    for row in rows:
+        del row["budget"], row["warnings"]
     return _put(options, record, lambda: text(record), rows, warnings)
 
 
@@ -313,7 +306,7 @@ def run_bench(options: argparse.Namespace) -> int:
     if options.limit is not None:
         with place("--limit"):
             limit = read_number(options.limit, "s")
-    # Without a terminal (None) there is no bar.
+    # None shows the progress bar on a terminal only.
     record = bench(names, options.repeat or repeat, limit, quiet=options.quiet or None)
     if options.out is not None:
         write(options.out, record)
@@ -323,7 +316,7 @@ def run_bench(options: argparse.Namespace) -> int:
 
 
 def run_check(options: argparse.Namespace) -> int:
-    """Check, and say what was found: 1 if the workbook is not the report's sheet."""
+    """Check a workbook and print the differences; status 1 if it is not the report's sheet."""
     _check_files(options, options.file)
     from replication.check import show
     from replication.check.examination import KINDS
@@ -345,7 +338,7 @@ def run_check(options: argparse.Namespace) -> int:
 
 
 def run_diff(options: argparse.Namespace) -> int:
-    """Compare, and say what was found: 1 if anything differs."""
+    """Compare two workbooks and print the differences; status 1 if there are any."""
     _check_files(options, options.first, options.second)
     from replication.check import show
     from replication.check.diff import KINDS, Tolerance, diff
@@ -359,7 +352,7 @@ def run_diff(options: argparse.Namespace) -> int:
 
 
 def _check_files(options: argparse.Namespace, *workbooks: Path) -> None:
-    """Raise OSError or ValueError, before any work, where a file cannot or must not be written."""
+    """Raise OSError or ValueError if --html or --junit names a file that must not be written."""
     from spreadsheets.safely import check_target
 
     files = [file for file in (options.html, options.junit) if file is not None]
@@ -375,7 +368,7 @@ def _put_found(
     page: Callable[[], str],
     kinds: Sequence[str],
 ) -> int:
-    """Write the files that were asked for, and print the record as JSON or text; the status."""
+    """Write the files asked for, print the record as JSON or text, and return the exit status."""
     from replication.check import show
     from spreadsheets.safely import write_bytes
 
@@ -387,7 +380,7 @@ def _put_found(
     return 0 if record["clean"] else 1
 
 
-# What they share: what several options mean together, and how to print
+# Shared by several commands
 
 
 def _case(options: argparse.Namespace) -> Impact:
@@ -398,9 +391,9 @@ def _case(options: argparse.Namespace) -> Impact:
 
 
 def _times(options: argparse.Namespace, name: str, counted_by: str) -> list[float]:
-    """The times [s] that an option lists, such as "0 ns,5 ns".
+    """Read the times [s] that an option lists, such as "0 ns,5 ns".
 
-    There may be as many as the other option, which gives their number instead, can ask for.
+    There may be as many as the option `counted_by`, which gives only their number, allows.
     """
     texts, values = [time.strip() for time in getattr(options, name).split(",")], []
     most = COMMANDS[options.command][counted_by]["within"][1]
@@ -410,7 +403,7 @@ def _times(options: argparse.Namespace, name: str, counted_by: str) -> list[floa
         with place(f"--{name}, value {position}"):
             values.append(read_number(time, "s"))
             if not 0 <= values[-1] <= 1e250:
-                raise ValueError(f"{quoted(time)} is not from 0 to 1e250 s")
+                raise ValueError(f"{quoted(time)} is not between 0 and 1e250 s")
     return values
 
 
@@ -422,10 +415,10 @@ def _put(
     warnings: Iterable[object] = (),
     quietly: bool = False,
 ) -> int:
-    """Print what a command found as JSON, as rows of CSV or as text, whichever is asked for.
+    """Print a command's result as JSON, rows of CSV or text, as asked for, and return status 0.
 
-    Warnings go to standard error, unless quiet; with JSON they stand in the record instead.
-    quietly: the text only tells what was done, so that `--quiet` silences it. The status is 0.
+    Warnings go to standard error, unless `--quiet` is given; for JSON the record contains them.
+    quietly: the text only reports what was done, so `--quiet` suppresses it, too.
     """
     if options.json:
         _put_json(json_text(record))
@@ -440,7 +433,7 @@ def _put(
 
 
 def _put_json(text: str) -> None:
-    """Print JSON, which is read as UTF-8: where stdout is not, in characters that are alike."""
+    """Print JSON. It is read as UTF-8, so for any other encoding of stdout use only ASCII."""
     encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
     if codecs.lookup(encoding).name != "utf-8":
         text = re.sub("[^\\x00-\\x7f]", lambda match: json.dumps(match[0])[1:-1], text)
@@ -448,18 +441,18 @@ def _put_json(text: str) -> None:
 
 
 def _width(piped: int = 80) -> int:
-    """The columns of the terminal, or those given where output goes elsewhere."""
+    """Return the number of columns of the terminal, or `piped` if stdout is not a terminal."""
     return shutil.get_terminal_size().columns if sys.stdout.isatty() else piped
 
 
 def _may_emphasize() -> bool:
-    """Whether output may be bold: to a terminal that can, and NO_COLOR is not set."""
-    is_able = sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
-    return is_able and not os.environ.get("NO_COLOR")
+    """Return whether bold text may be printed: on a capable terminal, without NO_COLOR."""
+    is_capable = sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
+    return is_capable and not os.environ.get("NO_COLOR")
 
 
 def _progress(options: argparse.Namespace, items: Any = None, **settings: Any) -> Any:
-    """A progress bar, unless quiet or without a terminal (None asks tqdm for that)."""
+    """Return a progress bar, which shows nothing if quiet or without a terminal."""
     from tqdm import tqdm
 
-    return tqdm(items, **settings, disable=options.quiet or None)
+    return tqdm(items, **settings, disable=options.quiet or None)  # None: unless on a terminal

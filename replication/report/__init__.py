@@ -1,7 +1,4 @@
-"""The finished record as files, and as a terminal shows it.
-
-Nothing is computed here.
-"""
+"""Write the finished record as files, and as text for a terminal. Nothing is computed here."""
 
 import re
 from collections.abc import Mapping, Sequence
@@ -18,7 +15,7 @@ from reference.ledger import INFERRED, Ledger, in_header
 from replication import page
 from replication.audit.record import ClaimRecord, Record, Verdict
 from replication.power import measured
-from replication.report import words as told
+from replication.report import words
 from replication.report.figures import draw
 from replication.report.words import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
 from replication.text import Table, between, columns, json_text, number, quantity, rows_csv
@@ -27,13 +24,13 @@ FILES = (
     "audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt", "workbook.xlsx",
     "figures/x.svg",
 )  # fmt: skip
-"""The names that the audit's folder must be able to take."""
+"""Names of files that must be writable in the audit's folder."""
 
 
 def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
-    """Every file of the folder by its name; the record has the hashes of those `beside` it."""
+    """Return every file of the folder by name; the record names those `beside` it with hashes."""
     hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
-    provenance = {**record.provenance, "sha256": {**record.provenance["sha256"], **hashes}}
+    provenance = record.provenance | {"sha256": record.provenance["sha256"] | hashes}
     record = msgspec.structs.replace(record, provenance=provenance)
     drawings = draw(record)
     texts = {
@@ -41,9 +38,9 @@ def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
         "audit.md": markdown(record),
         "audit.csv": _csv(record),
         **{f"figures/{name}.svg": drawing for name, drawing in drawings.items()},
+        "audit.json": json_text(record),
     }
-    files = {name: text.encode() for name, text in texts.items()}
-    return {**beside, **files, "audit.json": json_text(record).encode()}
+    return {**beside, **{name: text.encode() for name, text in texts.items()}}
 
 
 _COLUMNS = (
@@ -54,7 +51,7 @@ _COLUMNS = (
 
 
 def _csv(record: Record) -> str:
-    """A line for each claim; fields that do not apply are empty."""
+    """Write one row for each claim; fields that do not apply are empty."""
     rows = []
     for claim in record.claims:
         row = {name: getattr(claim, name, None) for name in _COLUMNS}
@@ -65,27 +62,27 @@ def _csv(record: Record) -> str:
 
 
 def html(record: Record, drawings: Mapping[str, str]) -> str:
-    """The page; without scripts, and with nothing from outside."""
+    """Write the page, with the figures; it has no scripts and loads nothing from outside."""
     parts = _arranged(record) | {"drawings": drawings, "head": page.head("replication.report")}
     return _filled("page.html.j2", Prose(HTML, record.symbols, parts["names"]), parts)
 
 
 def markdown(record: Record) -> str:
-    """The same as Markdown, without the figures."""
+    """Write the same as Markdown, without the figures."""
     parts = _arranged(record)
     return _filled("page.md.j2", Prose(MARKDOWN, record.symbols, parts["names"]), parts)
 
 
 def _filled(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
-    """One of the templates beside this file, filled; outside HTML no two empty lines in a row."""
+    """Fill a template of this folder; outside HTML, reduce several empty lines to one."""
     from markupsafe import Markup
 
-    finished = Markup if prose.form is HTML else str  # every part of it is escaped
+    finished = Markup if prose.form is HTML else str  # `prose` has escaped the sentence
     filters = {
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
-        "printed": told.printed,
-        # What a macro gives is Markup, too.
+        "printed": words.printed,
+        # A macro returns Markup: str() keeps jinja2 from escaping in it what `prose` escapes.
         "prose": cache(lambda sentence: finished(prose(str(sentence)))),
         "quoted": quoted,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
@@ -95,8 +92,8 @@ def _filled(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
 
 
 def _arranged(record: Record) -> dict[str, Any]:
-    """What page and Markdown need: the record, its claims as they are arranged, and helpers."""
-    groups, names = _groups(record), told.names_of(record)
+    """Return what page and Markdown need: the record, its claims by section, and helpers."""
+    groups, names = _groups(record), words.names_of(record)
     by_hand_first = sorted(record.findings, key=lambda finding: not finding.by_hand)
     concerned = {name for finding in record.findings for name in finding.claims}
     sources = {claim.id: claim.sources for claim in record.claims}
@@ -106,8 +103,7 @@ def _arranged(record: Record) -> dict[str, Any]:
         "groups": groups,
         "names": names,
         "quantity": quantity,
-        "facts": lambda claim: told.facts(claim, names),
-        "tables": told,
+        "tables": words,
         "between": between,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
         "touching": {name: [f for f in by_hand_first if name in f.claims] for name in concerned},
@@ -118,7 +114,7 @@ def _arranged(record: Record) -> dict[str, Any]:
 
 
 def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
-    """The claims by the section that shows them; each stands in one section only."""
+    """Sort the claims into the sections of the page; each is in one section only."""
     constants = {c.claim for equation in record.equations for c in equation.constants}
     by_verdict = {
         Verdict.REPRODUCED: "computed", Verdict.CONSISTENT: "repeated", Verdict.AGREES: "sources",
@@ -137,20 +133,20 @@ def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
 
 
 def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
-    """Table A-1 as the report prints it, and a letter for each verdict with its conventions."""
+    """Arrange Table A-1 as printed, with a letter for each verdict and its conventions."""
     cells = {str(claim.cell): claim for claim in claims.values()}
-    said = {c.id: (c.verdict, c.holds or c.explanation) for c in claims.values()}
-    letters = dict(zip(dict.fromkeys(said.values()), ascii_lowercase, strict=False))
+    notes = {c.id: (c.verdict, c.holds or c.explanation) for c in claims.values()}
+    letters = dict(zip(dict.fromkeys(notes.values()), ascii_lowercase, strict=False))
     below = [cell for cell in cells if not in_header(cell)]
     heads = {cell[0]: cells[cell].title.partition(",")[0] for cell in below}
     columns, rows = sorted(heads), sorted({int(cell[1:]) for cell in below})
     return {
         "header": [claim for cell, claim in cells.items() if in_header(cell)],
         "heads": [heads[column] for column in columns],
-        # A cell without a claim here is blank, or fails and stands above.
+        # A cell without a claim in this section is blank, or fails and is shown further up.
         "rows": [[cells.get(c + str(row), c + str(row)) for c in columns] for row in rows],
         "letters": letters,
-        "marks": {name: letters[text] for name, text in said.items()},
+        "marks": {name: letters[note] for name, note in notes.items()},
         "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
     }
 
@@ -161,43 +157,44 @@ MAIN = (
     "depth-beta-3", "depth-beta-5", "ratio-beta-5", "observed-depth-ratio", "goodier-beta",
     "walker-anderson-beta",
 )  # fmt: skip
-"""The report's main results, by id."""
+"""The ids of the report's main results."""
 
 FINDINGS = 3
-"""How many findings one screen has room for."""
+"""The number of findings that fit on one screen."""
 
 
 def summary(record: Record, width: int, strong: bool = False) -> str:
-    """The audit on one screen: the headline, the counts, all that fails, main results, findings."""
+    """Write the audit on one screen: headline, counts, what fails, main results, findings."""
     main = [
-        (c.title, told.printed(c), told.measured(c.computed, c.unit), c.verdict)
+        (c.title, words.printed(c), words.measured(c.computed, c.unit), c.verdict)
         for c in record.claims
         if c.id in MAIN and c.computed is not None
     ]
     context = {
         "record": record,
-        "not_as_printed": told.not_as_printed(record, by_title=True),
+        "not_as_printed": words.not_as_printed(record),
         "main": Table("Main results", ("number", "printed", "computed", "verdict"), main),
         "shown": FINDINGS,
     }
-    return _terminal(Prose(TERMINAL, record.symbols, {}), context, width, strong)
+    by_title = TERMINAL._replace(known="{title}")
+    prose = Prose(by_title, record.symbols, words.names_of(record))
+    return _terminal(prose, context, width, strong)
 
 
 def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) -> str:
-    """One claim with all that its verdict rests on; titles of other entries are the ledger's."""
-    names = (
-        {name: Named(e.title) for name, e in ledger.equations.items()}
-        | {f"{INFERRED}{name}": Named(e.title, "", told.measured(float(e.nominal), e.unit))
-           for name, e in ledger.inferred.items()}
-        | {name: Named(c.title, "", quantity(c.shown, c.unit))
-           for name, c in ledger.claims.items()}
-    )  # fmt: skip
+    """Write one claim with all that its verdict rests on; other entries are named by the ledger."""
+    names = {name: Named(e.title) for name, e in ledger.equations.items()}
+    for name, inferred in ledger.inferred.items():
+        value = words.measured(float(inferred.nominal), inferred.unit)
+        names[f"{INFERRED}{name}"] = Named(inferred.title, value=value)
+    for name, entry in ledger.claims.items():
+        names[name] = Named(entry.title, value=quantity(entry.shown, entry.unit))
     findings = (f for f in asserted.load().values() if f.kind != "headline")
     context = {
         "record": None,
         "claim": claim,
-        "facts": told.facts(claim, names),
-        "tables": told.tried(claim),
+        "facts": words.facts(claim, names),
+        "tables": words.tried(claim),
         "findings": [finding.title for finding in findings if claim.id in finding.claims],
     }
     symbols = (symbol.shown for symbol in ledger.symbols.values())
@@ -206,8 +203,9 @@ def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) 
 
 def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool) -> str:
     def filled(text: str, indent: str = "") -> str:
+        hanging = indent and indent + "  "
         return fill(
-            text, width, initial_indent=indent, subsequent_indent=indent + "  " * bool(indent),
+            text, width, initial_indent=indent, subsequent_indent=hanging,
             break_on_hyphens=False, break_long_words=False,
         )  # fmt: skip
 
@@ -215,5 +213,5 @@ def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool
         return columns([tuple(map(prose, row)) for row in rows], width)
 
     bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
-    parts = {"fill": filled, "columns": table, "strong": bold.format}
-    return _filled("terminal.txt.j2", prose, {**context, **parts}).rstrip("\n")
+    helpers = {"fill": filled, "columns": table, "strong": bold.format}
+    return _filled("terminal.txt.j2", prose, {**context, **helpers}).rstrip("\n")

@@ -1,7 +1,7 @@
-"""The figures, drawn from the record: SVG that takes ink and paper of the page around it.
+"""Draw the record's figures as SVG in the colors of the page around them.
 
-Drawn here and not by a plotting library: its import alone takes half as long as the whole audit,
-and its style attributes are what the page's content policy forbids.
+No plotting library is used: its import alone takes half as long as the whole audit, and it writes
+style attributes, which the page's content security policy forbids.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -14,8 +14,8 @@ from replication.models.sheet import SCHEMES
 from replication.report.words import shown_range
 
 INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
-"""The color of the text around, and two of Okabe and Ito's, which stand out from white and from
-near-black, and from each other for the color-blind."""
+"""The color of the surrounding text, and two of Okabe and Ito's palette, which stand out from
+white, from near-black and, for the color-blind too, from each other."""
 
 WIDTH = 440
 
@@ -23,9 +23,9 @@ Points = Iterable[tuple[float, float]]
 
 
 def draw(record: Record) -> dict[str, str]:
-    """Every figure of the record as SVG, by name; in a file of its own it stands on white paper.
+    """Draw the figures, by name, for which the record has data: with a misprint it may have none.
 
-    Only those of which the record has something to show: of a report with a misprint it may not.
+    On the page they have the page's background; as separate files they have a white one.
     """
     figures = {
         "comparison": (_comparison, _observed(record)),
@@ -34,14 +34,14 @@ def draw(record: Record) -> dict[str, str]:
         "figure-5": (_figure_5, record.velocity_curve.velocity),
         "convergence": (_convergence, record.ladders),
     }
-    return {name: figure(record).svg(name) for name, (figure, shown) in figures.items() if shown}
+    return {name: plot(record).svg(name) for name, (plot, data) in figures.items() if data}
 
 
 @dataclass
 class _Plot:
-    """A plot: its box in the figure (left, top, width, height) and the ranges of x and y in it.
+    """A plot: its box in the figure (left, top, width, height) and the ranges of its axes x and y.
 
-    `words`: what it shows, for those who do not see it; `below`: the height under the box.
+    `below` is the height under the box, and `words` describes the plot to those who cannot see it.
     """
 
     title: str
@@ -70,16 +70,16 @@ class _Plot:
         return "\n".join((*head, *self.parts, "</svg>\n"))
 
     def at(self, x: float, y: float) -> tuple[float, float]:
-        """Where a point lies in the figure."""
-        shares = []
-        for value, ends in ((x, self.x), (y, self.y)):
-            low, high, here = map(log10, (*ends, value)) if self.logarithmic else (*ends, value)
-            shares.append((here - low) / (high - low))
-        across, up = shares
+        """Convert a point from the plot's coordinates to the figure's."""
+        scaled = log10 if self.logarithmic else float
+        across, up = (
+            (scaled(value) - scaled(low)) / (scaled(high) - scaled(low))
+            for value, (low, high) in ((x, self.x), (y, self.y))
+        )
         return self.left + across * self.width, self.top + (1 - up) * self.height
 
     def axes(self, x: Iterable[float], y: Iterable[float], x_label: str, y_label: str = "") -> None:
-        """Grid, numbers at both axes, and what they are."""
+        """Draw both axes with their labels, and the grid with its numbers."""
         bottom, right = self.top + self.height, self.left + self.width
         for value in x:
             across, _ = self.at(value, self.y[0])
@@ -96,13 +96,15 @@ class _Plot:
             self.text(12, middle, y_label, "middle", f' transform="rotate(-90 12 {_n(middle)})"')
 
     def rows(self, labels: Sequence[str]) -> None:
-        """Labels of the rows y = 0, 1, ... at the left; a semicolon begins a second line."""
+        """Label the rows y = 0, 1, ... on the left; a semicolon begins a second line."""
         for row, label in enumerate(labels):
-            _, down = self.at(self.x[0], row)
-            lines = label.split("; ")
-            for k, line in enumerate(lines):
-                y = down + 4 + 13 * (k - (len(lines) - 1) / 2)
-                self.text(self.left - 8, y, line, "end")
+            self.row_text(self.left - 8, row, label.split("; "))
+
+    def row_text(self, x: float, row: float, lines: Sequence[str]) -> None:
+        """Write lines that end at x, centered vertically on a row."""
+        _, middle = self.at(self.x[0], row)
+        for k, line in enumerate(lines):
+            self.text(x, middle + 4 + 13 * (k - (len(lines) - 1) / 2), line, "end")
 
     def line(self, points: Points, color: str = INK, dashes: str = "") -> None:
         self.path([self.at(*point) for point in points], color, dashes)
@@ -119,7 +121,7 @@ class _Plot:
         )
 
     def legend(self, x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> None:
-        """Entries one below another, each with a mark or line of a kind and a color."""
+        """List entries one below another, each with the kind and color of its mark or line."""
         for k, (words, (kind, color)) in enumerate(entries.items()):
             down = y + 17 * k
             if kind.endswith("line"):
@@ -129,10 +131,10 @@ class _Plot:
                 self.mark(kind, color, x, down)
             self.text(x + 15, down + 4, words)
 
-    # In coordinates of the figure, not of the plot
+    # The methods below take the figure's coordinates, not the plot's.
 
     def mark(self, kind: str, color: str, x: float, y: float) -> None:
-        """A mark by its name; a hollow one is larger than a filled one, so that both show."""
+        """Draw a mark; a hollow one is larger than a filled one, so that both can be seen."""
         filled, shape = not kind.startswith("hollow"), kind.rpartition(" ")[2]
         r = 3.5 if filled else 5.0
         place = f'rect x="{_n(x - r)}" y="{_n(y - r)}" width="{2 * r}" height="{2 * r}"'
@@ -148,12 +150,13 @@ class _Plot:
         path = " ".join(f"{_n(x)},{_n(y)}" for x, y in points)
         faint = f' stroke-opacity="{opacity}"' if opacity < 1 else ""
         dashed = f' stroke-dasharray="{dashes}"' if dashes else ""
-        line = f'<polyline points="{path}" fill="none" stroke="{color}"{faint}{dashed}/>'
-        self.parts.append(line)
+        self.parts.append(
+            f'<polyline points="{path}" fill="none" stroke="{color}"{faint}{dashed}/>'
+        )
 
     def text(self, x: float, y: float, words: str, anchor: str = "start", more: str = "") -> None:
-        where = f'x="{_n(x)}" y="{_n(y)}" text-anchor="{anchor}"{more}'
-        self.parts.append(f"<text {where}>{escape(words)}</text>")
+        attributes = f'x="{_n(x)}" y="{_n(y)}" text-anchor="{anchor}"{more}'
+        self.parts.append(f"<text {attributes}>{escape(words)}</text>")
 
 
 def _n(value: float) -> str:
@@ -161,12 +164,12 @@ def _n(value: float) -> str:
 
 
 def _observed(record: Record) -> list[float]:
-    """X/R as it follows from what was observed."""
+    """Return the values of X/R that follow from observations."""
     return [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
 
 
 def _comparison(record: Record) -> _Plot:
-    """A row for each approach: what is computed filled, what is printed or quoted hollow."""
+    """Show X/R by each approach in a row: computed as filled marks, printed or quoted as hollow."""
     observed = _observed(record)
     shown = [a for a in record.approaches if a.kind != "observed"]
     title = "Normalized depth by every approach of the report"
@@ -198,7 +201,7 @@ def _comparison(record: Record) -> _Plot:
 
 
 def _sensitivity(record: Record) -> _Plot:
-    """A bar for each input about the depth as printed, the longest on top."""
+    """Show by bars how far each input's range moves the depth, the longest bar on top."""
     case = max(record.sensitivity, key=lambda s: s.beta)
     effects = sorted(case.stated, key=lambda e: -abs(e.depths[1] - e.depths[0]))
     title = f"What each input's stated range does to the exact penetration depth, β = {case.beta:g}"
@@ -207,26 +210,24 @@ def _sensitivity(record: Record) -> _Plot:
     plot.axes(range(6, 11), [], "Depth X [µm]")
     named = [(e.input.replace("_", " ").replace("beta", "β"), e) for e in effects]
     plot.rows([f"{name}; {shown_range(e)}" for name, e in named])
-    at_rest, told = case.depth * 1e6, []
+    depth, words = case.depth * 1e6, []
     for y, (name, effect) in enumerate(named):
-        ends = [depth * 1e6 for depth in effect.depths]
+        ends = [x * 1e6 for x in effect.depths]
         for end, color in zip(ends, (VERMILION, BLUE), strict=True):
-            plot.bar(at_rest, end, y, color, 18)
-        changes = [f"{end - at_rest:+.3f}" for end in ends]
-        for k, change in enumerate(change for change in changes if float(change)):
-            _, down = plot.at(5.4, y)
-            plot.text(434, down - 2 + 13 * k, change.replace("-", "−"), "end")
-        told.append(f"{name} {' to '.join(f'{end:.2f}' for end in ends)} µm")
-    plot.line([(at_rest, y) for y in rows])
+            plot.bar(depth, end, y, color, 18)
+        changes = [f"{end - depth:+.3f}" for end in ends]
+        plot.row_text(434, y, [c.replace("-", "−") for c in changes if float(c)])
+        words.append(f"{name} {' to '.join(f'{end:.2f}' for end in ends)} µm")
+    plot.line([(depth, y) for y in rows])
     looks = {"input at its low end": ("square", VERMILION), "at its high end": ("square", BLUE)}
     plot.legend(150, height + 80, looks)
     plot.text(434, 16, "change [µm]", "end")
-    plot.words = f"{'; '.join(told)}."
+    plot.words = f"{'; '.join(words)}."
     return plot
 
 
 def _figure_3(record: Record) -> _Plot:
-    """Every eighth row of each sheet as a point, the exact motion as a line."""
+    """Plot depth against time: the exact motion as a line, every eighth sheet row as a mark."""
     title = "Penetration depth against time, as in Figure 3 of the report"
     plot = _Plot(title, (44, 8, 386, 260), (0, 46), (0, 11.5))
     plot.axes(range(0, 41, 10), range(0, 11, 2), "Time [ns]", "Penetration depth [µm]")
@@ -256,13 +257,13 @@ def _figure_3(record: Record) -> _Plot:
 
 
 def _figure_5(record: Record) -> _Plot:
-    """The exact line, the sheet's points, and the observed level."""
+    """Plot X/R against impact velocity: exact, by the sheet, and as observed."""
     curve = record.velocity_curve
     low, high = curve.velocity[0], curve.velocity[-1]
     title = "Normalized depth against impact velocity, as in Figure 5 of the report"
     plot = _Plot(title, (44, 8, 386, 230), (low - 5, high + 5), (0, 0.8))
-    levels = [k / 10 for k in range(9)]
-    plot.axes(range(400, 501, 20), levels, "Impact velocity [m/s]", "Normalized depth X/R")
+    ratios = [k / 10 for k in range(9)]
+    plot.axes(range(400, 501, 20), ratios, "Impact velocity [m/s]", "Normalized depth X/R")
     observed = next(
         float(a.printed) for a in record.approaches if a.kind == "observed" and a.printed
     )
@@ -283,7 +284,7 @@ def _figure_5(record: Record) -> _Plot:
 
 
 def _convergence(record: Record) -> _Plot:
-    """The error of the final depth over the time step, both axes logarithmic."""
+    """Plot the error of the sheet's final depth against the time step, both axes logarithmic."""
     ladders: dict[tuple[str, float], list[tuple[float, float]]] = {}
     for level in record.ladders:
         point = level.step * 1e9, abs(level.error) * 1e9

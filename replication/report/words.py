@@ -1,6 +1,7 @@
-"""The sentences and tables on a record and its claims, the same for page, Markdown and terminal.
+"""Sentences and tables about a record and its claims, shared by HTML page, Markdown and terminal.
 
-`Prose` sets Greek letters, subscripts, powers and references in them; ids stand between backticks.
+They are plain text with ids between backticks. `Prose` then typesets Greek letters, subscripts and
+powers in them, and turns ids into references.
 """
 
 import re
@@ -22,7 +23,7 @@ from replication.text import Table, between, number, powers_of_ten, quantity, ro
 
 
 class Named(NamedTuple):
-    """What an id between backticks stands for: a title, its place on the page, its value."""
+    """What an id between backticks refers to: its title, its anchor on the page, its value."""
 
     title: str
     anchor: str = ""
@@ -30,16 +31,16 @@ class Named(NamedTuple):
 
 
 NO_VALUE = "no value"
-"""Of what misprinted inputs leave without a meaning."""
+"""Shown for a quantity that cannot be computed from misprinted inputs."""
 
 
 def printed(claim: r.ClaimRecord) -> str:
-    """What the report prints, with its unit; the words of a remark as they are."""
+    """Return what the report prints: a number with its unit, or the words of a remark."""
     return quantity(shown(claim.printed), claim.unit)
 
 
 def measured(value: float | None, unit: str, digits: int = 6) -> str:
-    """A number with its unit; nothing where there is none.
+    """Return a computed number with its unit, or an empty text if there is none.
 
     >>> measured(7.669556888793411, "um"), measured(None, "um")
     ('7.66956 µm', '')
@@ -51,7 +52,7 @@ _SCALES = {"radius": (1e6, "um"), "flow_stress": (1e-6, "MPa")}
 
 
 def shown_range(effect: r.Effect) -> str:
-    """The range of an effect's input in a unit that suits it.
+    """Return the range of an effect's input in the customary unit of that input.
 
     >>> effect = r.Effect(input="radius", low=8.2e-6, high=1.38e-5, ratios=[], depths=[], why="")
     >>> shown_range(effect)
@@ -62,7 +63,7 @@ def shown_range(effect: r.Effect) -> str:
 
 
 def names_of(record: r.Record) -> dict[str, Named]:
-    """What each id of a record stands for."""
+    """Return what each id of a record refers to."""
     equations = {
         e.id: Named(f"Eq. {e.number}" if e.number else e.title, f"equation-{e.id}")
         for e in record.equations
@@ -76,8 +77,8 @@ def names_of(record: r.Record) -> dict[str, Named]:
 
 
 def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, str]]:
-    """Label and text of all that is known of a claim beside its verdict and explanation."""
-    unit, off, still = claim.unit, claim.error_in_last_digit, claim.shown_by
+    """Return what is known of a claim, beside verdict and explanation, as labels and texts."""
+    unit, error, choice = claim.unit, claim.error_in_last_digit, claim.shown_by
     inputs = (
         " × ".join(f"`{name}` {names[name].value}" for name in entries)
         for entries in claim.rests_on.values()
@@ -92,53 +93,54 @@ def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, s
         f"{s.title}, {s.address}, prints {quantity(s.says, s.unit)} ({s.applies})"
         for s in claim.sources
     )
-    told = {
+    texts = {
         "rounds to it": quantity((claim.interval_text or "").replace("E", "e"), unit),
         "computed": measured(claim.computed, unit, 10),
         "to 25 digits": claim.reference,
         "proven range": claim.enclosure and between(claim.enclosure),
-        "off by": off is not None
+        "off by": error is not None
         and claim.verdict.is_open
-        and f"{number(off, 3)} units of the last printed digit",
-        "from": claim.computed is not None and ", ".join(inputs),
+        and f"{number(error, 3)} units of the last printed digit",
+        "computed from": claim.computed is not None and ", ".join(inputs),
         "for instance (SI)": claim.witness and _values(claim.witness),
-        "read otherwise": "; ".join(readings),
+        "other readings": "; ".join(readings),
         "assumed": "; ".join(claim.assumes),
-        "would still agree": still
-        and f"{quantity(between(still.interval, 6, inward=True), still.unit)}, by "
-        + ", ".join(f"`{name}`" for name in still.claims),
+        "would still agree": choice
+        and f"{quantity(between(choice.interval, 6, inward=True), choice.unit)}, by "
+        + ", ".join(f"`{name}`" for name in choice.claims),
         "public sources": "; ".join(sources),
         "workbook cell": claim.workbook and f"`{claim.workbook}`",
     }
-    return [(label, text.removesuffix(".")) for label, text in told.items() if text]
+    return [(label, text.removesuffix(".")) for label, text in texts.items() if text]
 
 
 def _values(values: Mapping[str, float]) -> str:
     return ", ".join(f"`{name}` {number(value, 10)}" for name, value in values.items())
 
 
-def not_as_printed(record: r.Record, *, by_title: bool = False) -> Table:
-    """The claims that do not come out as printed: what is printed, and what follows instead."""
+def not_as_printed(record: r.Record) -> Table:
+    """Return what is printed and what follows instead, for each claim that fails or is undecided.
+
+    Each reading of an equation has a column.
+    """
     claims = [claim for claim in record.claims if claim.verdict.is_open]
     needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
-    names = dict.fromkeys(["", *(reading.name for claim in claims for reading in claim.readings)])
+    as_printed = "computed as printed"
+    readings = (reading.name for claim in claims for reading in claim.readings)
+    *_, last = heads = tuple(dict.fromkeys([as_printed, *readings]))
     rows = []
     for claim in claims:
-        values = {"": claim.computed}
-        values |= {reading.name: reading.computed for reading in claim.readings}
+        values = {as_printed: claim.computed, **{x.name: x.computed for x in claim.readings}}
         texts = {name: f"{value:#.{significant(claim.printed)}g}"
                  for name, value in values.items() if value is not None}  # fmt: skip
         if claim.id in needed:
-            *_, last = names
-            texts[last] = "derived: " * (not last) + " or ".join(needed[claim.id])
-        title = claim.title if by_title else f"`{claim.id}`"
-        rows.append((title, printed(claim), *(texts.get(name, "") for name in names)))
-    heads = ("number", "printed", "computed as printed", *list(names)[1:])
-    return Table("What does not come out as printed", heads, rows)
+            texts[last] = "derived: " * (last == as_printed) + " or ".join(needed[claim.id])
+        rows.append((f"`{claim.id}`", printed(claim), *(texts.get(head, "") for head in heads)))
+    return Table("What does not come out as printed", ("number", "printed", *heads), rows)
 
 
 def significant(text: str) -> int:
-    """How many significant digits a printed number has.
+    """Count the significant digits of a printed number.
 
     >>> significant("0.0550"), significant(">= 2680"), significant("7.6E9")
     (3, 4, 2)
@@ -148,7 +150,7 @@ def significant(text: str) -> int:
 
 
 def tried(claim: r.ClaimRecord) -> list[Table]:
-    """The explanations tried of a claim that fails, and the figures that a remark is judged by."""
+    """Return the explanations tried for a claim that fails, and the figures that judge a remark."""
     figures = [(f.means, measured(f.value, f.unit, 5) or NO_VALUE) for f in claim.figures]
     slips = [
         (s.name, s.reason, measured(s.value, "1", 3) or NO_VALUE, s.fits or "no")
@@ -162,9 +164,9 @@ def tried(claim: r.ClaimRecord) -> list[Table]:
         inputs.append((f"`{entry}`", measured(first.printed, first.unit), *needed, search))
     readings = dict.fromkeys(solved.reading or "as printed" for solved in claim.back_solved)
     heads = ("input", "printed", *(f"needed, {reading}" for reading in readings), "searched")
-    changed = "One input changed, all others as printed: proven values that would give the number"
+    changed = "Proven values of one input that would give the number, all others as printed"
     tables = (
-        Table("The figures", ("what", "computed"), figures),
+        Table("The figures to judge it by", ("what", "computed"), figures),
         Table(changed, heads, inputs),
         repairs(claim.repairs, claim.id),
         Table("Slips the author may have made", ("slip", "what it is", "gives", "fits"), slips),
@@ -181,10 +183,10 @@ def _needed(solved: r.BackSolvedRecord) -> str:
 
 
 def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
-    """The misprints that make a number agree; `claim` is its id.
+    """Return the misprints that would make a claim or equation agree.
 
-    That claim is not among those listed as still failing: if another reading agrees, it fails only
-    as printed.
+    A claim, named by its id, is not listed among those that still fail: where another reading of
+    its equation agrees, it fails only as printed.
     """
     rows = []
     for repair in records:
@@ -192,12 +194,12 @@ def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
         texts = f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text)
         rows.append((*texts, repair.kind, repair.reading or "as printed", failing))
     heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
-    caption = "Misprints, one edit of the text, that would give it, all else as printed"
+    caption = "Misprints that would give it: one edit of the text, all else as printed"
     return Table(caption, heads, rows)
 
 
 def evidence(finding: r.FindingRecord) -> Table:
-    """The numbers of a finding, as asserted and as computed."""
+    """Return the numbers of a finding, as stated and as computed."""
     rows = [
         (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
         for x in finding.evidence
@@ -206,7 +208,9 @@ def evidence(finding: r.FindingRecord) -> Table:
 
 
 def computed(piece: r.EvidenceRecord) -> str:
-    """What was computed for a finding, to two digits more than asserted; bounds rounded safely.
+    """Return a finding's computed number, with two digits more than the stated one.
+
+    A number that must exceed a bound is rounded down, one that must stay below is rounded up.
 
     >>> piece = r.EvidenceRecord(
     ...     name="", means="", unit="1", asserted=">= 1.147", computed=1.1475699, holds=True
@@ -224,7 +228,7 @@ def computed(piece: r.EvidenceRecord) -> str:
 
 
 def proven(claims: Iterable[r.ClaimRecord]) -> Table:
-    """The cells of Table A-1 that are computed, with all digits that matter."""
+    """Return the computed cells of Table A-1 to ten digits, with their proven ranges."""
     rows = [
         (c.title, c.cell or "", measured(c.computed, c.unit, 10), between(c.enclosure))
         for c in claims
@@ -234,7 +238,7 @@ def proven(claims: Iterable[r.ClaimRecord]) -> Table:
 
 
 def approaches(record: r.Record) -> Table:
-    """Every approach to X/R."""
+    """Return X/R by every approach."""
     rows = [
         (f"{a.kind}: {a.name}",
          "not recomputable" if a.computed is None else number(a.computed, 5),
@@ -245,31 +249,31 @@ def approaches(record: r.Record) -> Table:
 
 
 def ladders(record: r.Record) -> Table:
-    """The sheet at other time steps: a row for each, a column for each case and scheme."""
+    """Return the sheet's final depth: a row for each time step, a column for case and scheme."""
     columns = dict.fromkeys((level.beta, level.scheme) for level in record.ladders)
     rows: dict[float, list[str]] = {}
     for level in record.ladders:
         text = f"{level.depth * 1e6:.6f} ({level.error * 1e9:+.3f})"
         rows.setdefault(level.step, [f"{number(level.step * 1e9)} ns"]).append(text)
     heads = (f"beta = {beta:g}, {SCHEMES[scheme].drag_at} velocity" for beta, scheme in columns)
-    caption = "Final depth of the sheet [um], its error [nm], by the velocity that the drag takes"
+    caption = "Final depth of the sheet [um] (error [nm]), by the velocity at which drag is taken"
     return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
 
 
 def sensitivity(case: r.Sensitivity) -> Table:
-    """How the depth of a case changes over the range of each input."""
+    """Return how the depth of a case changes over the range of each input."""
     rows = [
         (e.input.replace("_", " "), f"{case.elasticities[e.input]:+.3f}", shown_range(e),
          " to ".join(f"{depth * 1e6:.3f}" for depth in e.depths),
          " to ".join(dict.fromkeys(f"{ratio:.4f}" for ratio in e.ratios)), e.why)
         for e in case.stated
     ]  # fmt: skip
-    heads = ("input", "d ln X / d ln input", "range", "X [um]", "X/R", "the range is")
+    heads = ("input", "d ln X / d ln input", "range", "X [um]", "X/R", "source of the range")
     return Table(f"Derivatives and stated ranges, beta = {case.beta:g}", heads, rows)
 
 
 def scatter(record: r.Record) -> Table:
-    """The stream of particles by three laws."""
+    """Return the scatter of velocity and X/R over the particles of the stream, by three laws."""
     shares = [f"V and X/R that {number(100 * share)} % do not exceed" for share in SHARES]
     rows = []
     for law in record.scatter:
@@ -277,11 +281,11 @@ def scatter(record: r.Record) -> Table:
         quantiles = (f"{v:.0f} m/s, {ratio:.3f}" for v, ratio in pairs)
         deviations = (f"{x:.1f} m/s" for x in (law.standard_deviation, law.mean_deviation))
         rows.append((law.law, *deviations, *quantiles))
-    caption = "Velocity and X/R over the particles of the stream; deviations by size to first order"
+    caption = "Velocity V and X/R of the stream's particles; deviations from sizes to first order"
     return Table(caption, ("law", "standard deviation", "mean deviation", *shares), rows)
 
 
-# How a sentence is set
+# Typesetting
 
 
 _LOWERED = str.maketrans("0123456789aehklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
@@ -293,19 +297,19 @@ _POWER = re.compile(r"\^(\(([^()]*)\))")
 
 
 def _typographic(text: str) -> str:
-    """Escaped for HTML, with curly quotes and with numbers that stay with their names and units."""
+    """Escape a text for HTML, with curly quotes, and no line breaks within "Eq. 1" or "5 um"."""
     text = escape(re.sub('"([^"]*)"', r"“\1”", text).replace("'", "’"), quote=False)
     return _TOGETHER.sub("\N{NO-BREAK SPACE}", text)
 
 
-_TOGETHER = re.compile(  # the space comes first, as that makes the search fast
+_TOGETHER = re.compile(  # beginning with the space makes the search fast
     r" (?=[\dA])(?:(?<=\bEq\. )|(?<=\bEqs\. )|(?<=\bTable )|(?<=\bFigure ))"
     r"| (?<=\d )(?=%|[µmnkMG]?(?:m|s|g|Pa|si)\b)"
 )
 
 
 class Form(NamedTuple):
-    """How to escape a text, and to set a subscript, a power in brackets, an id and its title."""
+    """How to escape a text, and to write a subscript, a power in brackets, an id, and its title."""
 
     escaped: Callable[[str], str]
     lowered: Callable[[str, str], str]
@@ -317,7 +321,7 @@ class Form(NamedTuple):
 TERMINAL = Form(
     str, lambda base, below: base + below.translate(_LOWERED), r"^\1", "{}", "{title} ({code})"
 )
-MARKDOWN = TERMINAL._replace(  # a bar would end a table's cell
+MARKDOWN = TERMINAL._replace(  # a vertical bar would end a table cell
     escaped=lambda text: text.replace("|", "\\|").replace("<", "&lt;"), code="`{}`"
 )
 HTML = Form(
@@ -327,10 +331,10 @@ HTML = Form(
 
 
 class Prose:
-    """Turns the record's plain sentences into HTML, Markdown or text for a terminal, by its form.
+    """Typesets the record's plain sentences in a form: HTML, Markdown, or text for a terminal.
 
-    `symbols` are written as "ρ_t"; in a sentence the Greek letter may be spelled out. An id stands
-    between backticks, and `names` tells what it stands for.
+    `symbols` are written like "ρ_t"; a sentence may spell the Greek letter ("rho_t"). Ids stand
+    between backticks, and `names` says what they refer to.
 
     >>> names = {"a1-density": Named("particle density", "claim-a1-density")}
     >>> Prose(TERMINAL, ["ρ_t", "V"], names)("`a1-density`: rho_t V^2 is 2e+09 Pa, -8 %")
@@ -341,54 +345,53 @@ class Prose:
 
     def __init__(self, form: Form, symbols: Iterable[str], names: Mapping[str, Named]) -> None:
         self.form, self.names = form, names
-        spelled: dict[str, tuple[str, str]] = {}
+        self._symbols: dict[str, str] = {}
         for symbol in symbols:
             base, _, below = symbol.partition("_")
             spellings = [base] if below else []
-            if not base.isascii() and len(base) == 1:  # Greek; a sentence spells it by its name
+            if not base.isascii() and len(base) == 1:  # a Greek letter
                 word = unicodedata.name(base).rpartition(" ")[2].capitalize()
                 spellings = [base, word] if base.isupper() else [base, word, word.lower()]
             for spelling in spellings:
-                spelled.setdefault(f"{spelling}_{below}".rstrip("_"), (base, below))
-        longest_first = sorted(spelled, key=lambda name: (-len(name), name))
-        self._spelled = spelled
+                typeset = form.lowered(base, below) if below else base
+                self._symbols.setdefault(f"{spelling}_{below}".rstrip("_"), typeset)
+        longest_first = sorted(self._symbols, key=lambda name: (-len(name), name))
         self._pattern = re.compile(
             rf"(?<![^\W\d])({'|'.join(map(re.escape, longest_first)) or '(?!)'})(?![A-Za-z_\d])"
         )
 
     def __call__(self, sentence: str) -> str:
-        form = self.form
+        parts = sentence.split("`")
+        parts[::2] = map(self._text, parts[::2])
+        parts[1::2] = map(self._reference, parts[1::2])
+        return "".join(parts)
 
-        def symbol(match: re.Match[str]) -> str:
-            base, below = self._spelled[match[1]]
-            return form.lowered(base, below) if below else base
+    def _text(self, text: str) -> str:
+        text = _SIGN.sub(lambda sign: _SIGNS.get(sign[0]) or superscript(sign[0][1:]), text)
+        text = self.form.escaped(powers_of_ten(text))
+        text = self._pattern.sub(lambda symbol: self._symbols[symbol[1]], text)
+        return _POWER.sub(self.form.power, text)
 
-        def part(k: int, text: str) -> str:
-            if k % 2:  # an id
-                code = form.code.format(escape(text))
-                if text not in self.names:
-                    return code
-                title, anchor, _ = self.names[text]
-                return form.known.format(title=self(title), code=code, anchor=anchor)
-            text = _SIGN.sub(lambda sign: _SIGNS.get(sign[0]) or superscript(sign[0][1:]), text)
-            text = self._pattern.sub(symbol, form.escaped(powers_of_ten(text)))
-            return _POWER.sub(form.power, text)
-
-        return "".join(part(k, text) for k, text in enumerate(sentence.split("`")))
+    def _reference(self, name: str) -> str:
+        code = self.form.code.format(escape(name))
+        if name not in self.names:
+            return code
+        title, anchor, _ = self.names[name]
+        return self.form.known.format(title=self(title), code=code, anchor=anchor)
 
 
 _COMMANDS = {"leq": "≤ ", "geq": "≥ ", "quad": " ", "text": ""}
 
 
 def quoted(text: str) -> str:
-    r"""Words of the report without the marks of LaTeX in which they were read.
+    r"""Convert a quotation from the report's LaTeX to plain text.
 
     >>> quoted(r"then $\beta = ⟦3^2⟧$, where $k_t\rho_t \leq \ln(2)$")
     'then β = ⟦3²⟧, where k_t ρ_t ≤ ln(2)'
     """
     text = re.sub(r"(?<=\w)(?=\\)", " ", shown(text))
 
-    def sign(command: re.Match[str]) -> str:  # HTML calls letters as LaTeX does
+    def sign(command: re.Match[str]) -> str:  # HTML names letters as LaTeX does
         name = command[1]
         return _COMMANDS.get(name, html5.get(f"{name};", name))
 

@@ -1,4 +1,4 @@
-"""The command line as a user meets it: what it prints, where, and with which status."""
+"""The command line: what it prints, where, and with which exit status."""
 
 import csv
 import json
@@ -30,24 +30,27 @@ def test_json_is_one_document_with_the_promised_keys(question: str, answer: str)
         rows = record[key] if isinstance(record[key], list) else [record[key]]
         assert all(set(inner.split()) <= set(row) for row in rows if inner)
     if "levels" in record:
-        assert record["levels"][0]["order"] is None  # where nothing is defined
+        assert record["levels"][0]["order"] is None  # undefined for the first level
+
+
+def both(*arguments: object) -> tuple[dict[str, Any], list[dict[str, str]]]:
+    """Return the JSON document that a command prints, and the rows of its CSV."""
+    rows = csv.DictReader(coldspray(*arguments, "--csv")[1].splitlines())
+    return json.loads(coldspray(*arguments, "--json")[1]), list(rows)
 
 
 def test_csv_is_the_json_with_all_digits() -> None:
-    rows = json.loads(coldspray("sheet", "--json")[1])["rows"]
-    lines = list(csv.DictReader(coldspray("sheet", "--csv")[1].splitlines()))
-    assert [float(line["depth"]) for line in lines] == [row["depth"] for row in rows]
-    record = json.loads(coldspray("history", "--points", 5, "--json")[1])
-    lines = list(csv.DictReader(coldspray("history", "--points", 5, "--csv")[1].splitlines()))
+    record, rows = both("sheet")
+    assert [float(row["depth"]) for row in rows] == [row["depth"] for row in record["rows"]]
+    record, rows = both("history", "--points", 5)
     for name in ("time", "depth", "velocity"):
-        assert [float(line[name]) for line in lines] == record[name]
+        assert [float(row[name]) for row in rows] == record[name]
         assert len(record[name]) == 5
     assert record["time"][-1] == record["stop_time"]
     assert record["velocity"][0] == 500.0
-    levels = json.loads(coldspray("converge", "--levels", 3, "--json")[1])["levels"]
-    lines = list(csv.DictReader(coldspray("converge", "--levels", 3, "--csv")[1].splitlines()))
-    assert [float(line["error"]) for line in lines] == [level["error"] for level in levels]
-    assert float(lines[0]["stop_rule"]) == levels[0]["budget"]["stop_rule"]
+    record, rows = both("converge", "--levels", 3)
+    assert [float(row["error"]) for row in rows] == [level["error"] for level in record["levels"]]
+    assert float(rows[0]["stop_rule"]) == record["levels"][0]["budget"]["stop_rule"]
 
 
 @pytest.mark.parametrize(
@@ -58,7 +61,7 @@ def test_csv_is_the_json_with_all_digits() -> None:
     ],
 )
 def test_the_surroundings_change_no_promise(setting: str, arguments: str, tmp_path: Path) -> None:
-    """JSON is read as UTF-8, whatever the encoding; what cannot be computed is told in one line."""
+    """JSON is UTF-8 in any locale; arrays without a compiler are refused in one line."""
     (tmp_path / "plan").write_text("[inputs]\nvelocity = [400.0, 500.0]\n")
     name, value = setting.split("=")
     command = [sys.executable, "-m", "replication", *arguments.split()]
@@ -76,11 +79,12 @@ def test_the_surroundings_change_no_promise(setting: str, arguments: str, tmp_pa
 
 
 def test_a_write_protected_file_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """It would be replaced, not written to: only the folder must let that happen."""
+    """Replacing it would take only permission to write to its folder."""
     plan, output = tmp_path / "plan.toml", tmp_path / "cases.csv"
     plan.write_text("[inputs]\nvelocity = 500.0\n")
     output.write_text("kept")
-    monkeypatch.setattr(os, "access", lambda path, _: Path(path) != output)  # root may do all
+    # Root may write to any file.
+    monkeypatch.setattr(os, "access", lambda path, _: Path(path) != output)
     status, _, err = coldspray("sweep", plan, "-o", output)
     assert (status, output.read_text()) == (2, "kept")
     assert err == f"coldspray sweep: {output}: is write-protected\n"
@@ -116,9 +120,9 @@ def test_audit_writes_its_files_and_a_summary_of_one_screen(tmp_path: Path) -> N
 
 
 def test_a_closed_pipe_is_no_error() -> None:
-    """Nor is it taken for a status of ours: what was not read might have been a difference."""
+    """Its status is none of the program's own: what was not read might have been a difference."""
     process = [sys.executable, "-m", "replication", "sheet", "--step", "1e-12", "--csv"]
-    buffered = {**os.environ, "PYTHONUNBUFFERED": ""}  # else Python drops what a pipe leaves over
+    buffered = {**os.environ, "PYTHONUNBUFFERED": ""}  # or Python drops what the pipe does not take
     with subprocess.Popen(process, stdout=-1, stderr=-1, text=True, env=buffered) as running:
         assert running.stdout is not None
         assert running.stderr is not None
@@ -130,14 +134,23 @@ def test_a_closed_pipe_is_no_error() -> None:
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
 @pytest.mark.parametrize("unbuffered", ["", "1"])
-@pytest.mark.parametrize("arguments", ["--help", "--version", "depth --help", "depth"])
-def test_a_full_disk_gets_one_line_and_status_2(arguments: str, unbuffered: str) -> None:
+@pytest.mark.parametrize(
+    ("stream", "arguments"),
+    [("stdout", arguments) for arguments in ("--help", "--version", "depth --help", "depth")]
+    + [("stderr", arguments) for arguments in ("depth --velocity x", "check nothing.xlsx")],
+)
+def test_a_full_disk_gets_one_line_and_status_2(
+    stream: str, arguments: str, unbuffered: str
+) -> None:
+    """The status also holds if standard error cannot be written."""
     command = [sys.executable, "-m", "replication", *arguments.split()]
     environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
     with Path("/dev/full").open("w") as full:
-        done = subprocess.run(command, stdout=full, stderr=-1, text=True, env=environment)
+        streams: dict[str, Any] = {"stdout": -1, "stderr": -1, stream: full}
+        done = subprocess.run(command, **streams, text=True, env=environment, check=False)
     assert done.returncode == 2
-    assert re.fullmatch(r"coldspray( depth)?: No space left on device\n", done.stderr)
+    if stream == "stdout":
+        assert re.fullmatch(r"coldspray( depth)?: No space left on device\n", done.stderr)
 
 
 def test_version_and_help() -> None:
@@ -149,23 +162,11 @@ def test_version_and_help() -> None:
         assert "--quiet" in said
 
 
-@pytest.mark.skipif(not Path("/dev/full").exists(), reason="needs a device that is always full")
-@pytest.mark.parametrize("unbuffered", ["", "1"])
-@pytest.mark.parametrize("arguments", [("depth", "--velocity", "x"), ("check", "nothing.xlsx")])
-def test_the_status_holds_where_nobody_can_be_told(
-    arguments: tuple[str, ...], unbuffered: str
-) -> None:
-    with Path("/dev/full").open("w") as full:
-        command = [sys.executable, "-m", "replication", *arguments]
-        how = os.environ | {"PYTHONUNBUFFERED": unbuffered}
-        assert subprocess.run(command, stderr=full, env=how, check=False).returncode == 2
-
-
-# `coldspray workbook`: what it writes, refuses and says, and a status that can be trusted
+# `coldspray workbook`
 
 Run = Callable[..., tuple[int, str, str]]
 OWN = ("--step", "1 ns")
-"""A case of one's own takes no audit and few rows."""
+"""A case that is not the report's: its workbook needs no audit, and few rows."""
 
 
 @pytest.fixture
@@ -178,10 +179,10 @@ def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "workbook.xlsx"
     assert run(*OWN)[:2] == (0, "Written: workbook.xlsx\n")
     first = path.read_bytes()
-    assert run("--step", "2 ns")[0] == 0  # its own, though of another case
+    assert run("--step", "2 ns")[0] == 0  # it is coldspray's own file, though of another case
     assert path.read_bytes() != first
     whole = path.read_bytes()
-    assert rewritten(whole, lambda _, part: part) == whole  # packed alike: the seal must tell
+    assert rewritten(whole, lambda _, part: part) == whole  # so only the seal can tell
     for content in (
         rewritten(whole, lambda _, part: part.replace(b"<v>2.0</v>", b"<v>2.1</v>")),
         rewritten(whole, lambda _, part: part.replace(b'width="5.7', b'width="6.7')),
@@ -216,13 +217,13 @@ def test_a_longer_sheet_as_the_sheet_advises(run: Run, tmp_path: Path) -> None:
 
 
 def deeper(sheet: str, address: str, value: Any) -> Any:
-    """What an engine says that adds to the depths, column D of the sheet."""
+    """Return the value of an engine that adds 1e-12 to the depths in column D of the sheet."""
     depth = sheet == "Sheet beta 5" and address.startswith("D") and isinstance(value, float)
     return value + 1e-12 if depth else value
 
 
 def test_a_workbook_verifies_in_every_engine(run: Run) -> None:
-    """The report's own is verified cell by cell in `tests/spreadsheets/test_workbook.py`."""
+    """The report's workbook is verified cell by cell in `tests/spreadsheets/test_workbook.py`."""
     unverified = json.loads(run("--json", "-o", "report.xlsx")[1])
     assert unverified["file"] == "report.xlsx"
     assert (unverified["passed"], unverified["engines"]) == (None, [])

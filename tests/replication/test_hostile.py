@@ -1,7 +1,7 @@
-"""Nothing a user writes ends in a traceback, a hang or half a file, whatever it is.
+"""No input of a user ends in a traceback, a hang or half a file.
 
-Status 0, 1 or 2; at status 2 nothing on standard output, nothing written, and one short line on
-standard error that has no control characters.
+The exit status is 0, 1 or 2. At status 2 nothing is printed on standard output, no file is written,
+and standard error has one short line without control characters.
 """
 
 import io
@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from kept import spelled
 from running import coldspray
@@ -31,7 +31,7 @@ from spreadsheets.safely import write_folder
 
 
 def state(folder: Path) -> dict[str, bytes | None]:
-    """What is in a folder: the contents of files, None for what is none."""
+    """Return the content of every file in a folder; None for what is not a regular file."""
     return {
         str(path.relative_to(folder)): path.read_bytes() if path.is_file() else None
         for path in folder.rglob("*")
@@ -39,7 +39,7 @@ def state(folder: Path) -> dict[str, bytes | None]:
 
 
 def check(folder: Path, *arguments: str) -> tuple[int, str]:
-    """Run a command in a folder and hold what this file promises; its status, and what it says."""
+    """Run a command in a folder, check the promises above, and return its status and its output."""
     before = state(folder)
     with chdir(folder):
         status, out, err = coldspray(*arguments)
@@ -53,7 +53,7 @@ def check(folder: Path, *arguments: str) -> tuple[int, str]:
         assert err.endswith("\n")
         assert len(err.splitlines()) == 1
         assert state(folder) == before
-    elif arguments[0] != "stability":  # some of whose cases are such numbers
+    elif arguments[0] != "stability":  # some of its cases have such numbers
         assert not re.search(r"\b(?:nan|inf(?:inity)?)\b", out.lower())
     return status, err + out
 
@@ -74,7 +74,7 @@ def test_what_the_commands_say(example: list[str], folder: Path) -> None:
     assert re.fullmatch(re.escape("\n".join(said)).replace(r"\.\.\.", ".*"), printed)
 
 
-# What they are given
+# Files for the commands
 
 FILES = {
     "deep.toml": "[impact]\nradius = " + 5000 * "[",
@@ -98,7 +98,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     os.mkfifo(own / "pipe.csv")
     with chdir(own):
         assert coldspray("workbook", "--velocity", "500", "--quiet", "-o", "own.xlsx")[0] == 0
-    # What looks like that workbook: cut, packed too well, nested too deep.
+    # Broken copies of that workbook: cut off, with entities or deep nesting, or expanding too far.
     whole = (own / "own.xlsx").read_bytes()
     (own / "zero.xlsx").write_bytes(b"")
     (own / "cut.xlsx").write_bytes(whole[: len(whole) // 2])
@@ -119,12 +119,12 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return own
 
 
-# Whatever comes
+# Random arguments and files
 
 
 @cache
 def flags(command: str) -> list[str]:
-    """The options of a command, as it tells them."""
+    """Return the options of a command, from its help."""
     return sorted(set(re.findall(r"--[a-z-]+", coldspray(command, "--help")[1])))
 
 
@@ -159,10 +159,9 @@ def arguments(draw: st.DrawFn, command: str) -> list[str]:
 
 
 @pytest.mark.parametrize("command", ["depth", "sheet", "history", "claims"])
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(st.data())
 def test_any_arguments(command: str, folder: Path, data: st.DataObject) -> None:
-    """Of commands that end soon, and write nothing."""
+    """Random arguments, for commands that end soon and write nothing."""
     check(folder, *data.draw(arguments(command)))
 
 
@@ -197,7 +196,6 @@ DOCUMENTS = st.one_of(
 )  # fmt: skip
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(DOCUMENTS)
 @example(b"\xef\xbb\xbf[impact]\nradius = 1e-6")
 @example(b"[impact]\nradius = " + b"9" * 4299)
@@ -206,7 +204,6 @@ def test_any_case_file(folder: Path, document: bytes) -> None:
     check(folder, "depth", "--json", "--case-file", "any.toml")
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(DOCUMENTS)
 def test_any_plan(folder: Path, document: bytes) -> None:
     (folder / "any.toml").write_bytes(document)
@@ -214,16 +211,16 @@ def test_any_plan(folder: Path, document: bytes) -> None:
         count = read_plan(folder / "any.toml").count
     except ValueError:
         count = 0
-    if count <= 10_000:  # a million cases are no fault
+    if count <= 10_000:  # more cases are allowed, but take too long here
         (folder / "any.csv").unlink(missing_ok=True)
         check(folder, "sweep", "any.toml", "-o", "any.csv", "--quiet")
 
 
-# A disk that is full, a run that is killed
+# Full disks and killed runs
 
 
 LIMITED = partial(resource.setrlimit, resource.RLIMIT_FSIZE, (20_000, 20_000))
-"""No file of a process may grow beyond so many bytes: writing fails as on a full disk."""
+"""Limit the size of a process's files [bytes], so that writing fails as on a full disk."""
 
 
 @pytest.mark.parametrize(
@@ -269,7 +266,7 @@ WRITERS = {
 
 @pytest.mark.parametrize("writer", WRITERS, ids=["file", "folder"])
 def test_a_run_that_is_killed_leaves_whole_files(writer: str, tmp_path: Path) -> None:
-    """It is killed at its first file event, its second, and so on, until it comes to its end."""
+    """Kill a run at its first file operation, at its second, and so on, until one run completes."""
     (tmp_path / "c").mkdir()
     for moment in range(1, 60):
         for name in WRITERS[writer]:
@@ -287,11 +284,11 @@ def test_a_run_that_is_killed_leaves_whole_files(writer: str, tmp_path: Path) ->
 
 
 def test_what_a_killed_run_left_goes_and_nothing_else(tmp_path: Path) -> None:
-    left, of_others = ".a.12.part", [".a.part", ".other.12.part", ".as.1.part"]
-    for name in (left, *of_others):
+    own, foreign = ".a.12.part", [".a.part", ".other.12.part", ".as.1.part"]
+    for name in (own, *foreign):
         (tmp_path / name).write_text("half")
     write_folder(tmp_path, {"a": b"new"})
-    assert {path.name for path in tmp_path.iterdir()} == {"a", *of_others}
+    assert {path.name for path in tmp_path.iterdir()} == {"a", *foreign}
 
 
 def test_a_folder_that_cannot_be_filled_is_as_it_was(tmp_path: Path) -> None:

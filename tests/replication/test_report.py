@@ -1,4 +1,4 @@
-"""The audit's record and files: complete, exact, the same on every run, readable by everybody."""
+"""The audit's record and files are complete, exact, reproducible and accessible."""
 
 import csv
 import io
@@ -33,8 +33,7 @@ from replication import text as texts
 from replication.audit.audit import Audit, audit
 from replication.audit.record import Figure, Record, Verdict, filled, schema
 from replication.cases import BETA_5
-from replication.models import depth
-from replication.models.impact import Impact
+from replication.models.depth import final_depth
 from replication.report import contents, html
 from replication.report.figures import draw
 from replication.report.words import HTML as PAGE
@@ -52,23 +51,21 @@ def test_the_record_is_what_its_schema_says_and_nothing_less(record: Record) -> 
     validator.validate(small)
     for key in small:
         assert not validator.is_valid({k: v for k, v in small.items() if k != key}), key
-    for key in document["claims"][0]:
-        spoiled = {k: v for k, v in document["claims"][0].items() if k != key}
-        assert not validator.is_valid({**small, "claims": [spoiled]}), key
-        wrong = {**spoiled, key: True}  # no key is a truth value
-        assert not validator.is_valid({**small, "claims": [wrong]}), key
-    for more in ({"unknown": 1}, {"verdict": "maybe"}):
-        claim = {**document["claims"][0], **more}
-        assert not validator.is_valid({**small, "claims": [claim]}), more
+    claim = document["claims"][0]
+    spoiled = [{k: v for k, v in claim.items() if k != key} for key in claim]
+    spoiled += [{**claim, key: True} for key in claim]  # no key holds a bool
+    spoiled += [{**claim, "unknown": 1}, {**claim, "verdict": "maybe"}]
+    for wrong in spoiled:
+        assert not validator.is_valid({**small, "claims": [wrong]}), wrong
 
 
 def arithmetic(text: str) -> float:
-    """The value of a line as it stands on the page."""
+    """Evaluate arithmetic as it is typeset on the page."""
     raised = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
     text = re.sub(r"×10([⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda power: "e" + power[1].translate(raised), text)
     text = text.replace("·", "*").replace("^", "**").replace("ln", "log")
     assert re.fullmatch(r"(?:log|[\de.+*/() -])+", text), text
-    return float(eval(text, {"log": log}))  # only digits, signs and log are left
+    return float(eval(text, {"log": log}))  # nothing but digits, signs and log
 
 
 def test_every_line_by_hand_is_calculated_again(record: Record) -> None:
@@ -78,8 +75,8 @@ def test_every_line_by_hand_is_calculated_again(record: Record) -> None:
     for line in lines:
         left, _, right = line.rpartition(" = ")
         value = F(arithmetic(left))
-        # The last line multiplies numbers that stand there with five digits.
-        slack = value / 10**4 if line is lines[2] or line is lines[5] else 0
+        # The last line of each claim multiplies numbers that were rounded to five digits.
+        slack = value / 10**4 if line in (lines[2], lines[5]) else 0
         assert parse(right).interval().meets(Interval(value - slack, value + slack)), line
 
 
@@ -96,7 +93,7 @@ def test_a_cell_of_table_a_1_that_fails_is_not_called_blank() -> None:
 
 
 def shown_of(record: Record) -> Counter[str]:
-    """How much a record has of what is computed beside the verdicts."""
+    """Count what a record has computed besides the verdicts."""
     remarks = (figure for claim in record.claims for figure in claim.figures)
     return Counter({
         "approaches": sum(approach.computed is not None for approach in record.approaches),
@@ -122,7 +119,7 @@ def test_inputs_without_a_meaning_end_no_audit(record: Record, question: str, an
 
 
 def test_a_misprint_that_fails_by_another_equation_shows_that_equation() -> None:
-    """Eq. 11 alone gives alpha; beta takes two equations, so that no single one shows it."""
+    """Eq. 11 alone gives alpha, but beta takes two equations: no single one shows it."""
     spoiled = audit(LEDGER.misprint("yield-strength", "251"))
     alpha, beta = (spoiled.claim(f"walker-anderson-{name}") for name in ("alpha", "beta"))
     assert alpha.verdict == beta.verdict == "not reproduced"
@@ -150,11 +147,7 @@ def test_an_audit_elsewhere_has_the_same_bytes(tmp_path: Path) -> None:
     assert {path for path in {*first, *second} if first.get(path) != second.get(path)} == set()
 
 
-# What the depth depends on, and what scatter does to it
-
-
-def ratio(impact: Impact) -> float:
-    return depth.final_depth(**impact.motion) / impact.radius
+# Scatter of the particles, and the curve of Figure 5
 
 
 def test_quantiles_of_each_law(record: Record) -> None:
@@ -164,10 +157,11 @@ def test_quantiles_of_each_law(record: Record) -> None:
         points = laws[law]
         sized = [500 * (22 / sizes.inv_cdf(1 - share)) ** power for share in points.shares]
         assert points.velocities == pytest.approx(sized, rel=1e-14)
-        assert points.ratios == [ratio(replace(BETA_5, velocity=v)) for v in points.velocities]
-        small = 22 - 1e-4, 22 + 1e-4  # the law's own slope at the mean size
-        faster, slower = (500 * (22 / size) ** power for size in small)
-        slope = (faster - slower) / (small[1] - small[0])
+        impacts = [replace(BETA_5, velocity=v) for v in points.velocities]
+        assert points.ratios == [final_depth(**i.motion) / i.radius for i in impacts]
+        near = 22 - 1e-4, 22 + 1e-4  # to differentiate the law numerically at the mean size
+        faster, slower = (500 * (22 / size) ** power for size in near)
+        slope = (faster - slower) / (near[1] - near[0])
         assert laws[law].standard_deviation == pytest.approx(slope * 5.6, rel=1e-9)
 
 
@@ -256,7 +250,7 @@ def test_the_answer_comes_first_everywhere(
 
 def test_symbols_are_typeset(files: dict[str, bytes], root: ET.Element, record: Record) -> None:
     for element in root.iter():
-        if element.tag in (f"{HTML}q", f"{HTML}code"):  # sources as they print; names of cells
+        if element.tag in (f"{HTML}q", f"{HTML}code"):  # sources as printed, and names of cells
             element.clear()
     (body,) = root.iter(f"{HTML}body")
     for text in (words(body), files["audit.md"].decode(), report.summary(record, 80)):
@@ -274,7 +268,7 @@ def test_a_text_of_the_ledger_cannot_become_markup(record: Record) -> None:
 def test_figures_take_ink_and_paper_of_the_page(files: dict[str, bytes]) -> None:
     figures = {name: text.decode() for name, text in files.items() if name.startswith("figures/")}
     assert len(figures) == 5
-    shown = Path(__file__).parents[2] / "docs" / "comparison.svg"  # by the README
+    shown = Path(__file__).parents[2] / "docs" / "comparison.svg"  # shown in the README
     assert shown.read_text("utf-8") == figures["figures/comparison.svg"]
     for text in figures.values():
         assert text.strip() in files["audit.html"].decode()
@@ -303,7 +297,7 @@ def test_it_prints_on_25_sheets(files: dict[str, bytes], tmp_path: Path) -> None
 
 
 def test_the_page_in_the_documentation_is_what_the_audit_says(files: dict[str, bytes]) -> None:
-    """To keep a new one: run `coldspray audit`, and copy its audit.md up to the provenance."""
+    """To renew it, run `coldspray audit` and copy its audit.md up to the provenance."""
     document = (Path(__file__).parents[2] / "docs" / "audit.md").read_text("utf-8")
     assert files["audit.md"].decode().partition("\n## Provenance")[0] == document
 
@@ -357,7 +351,7 @@ ENDS = st.floats(-1e12, 1e12) | NEAR_DECIMALS
 @given(ENDS, ENDS, st.integers(3, 12))
 def test_shortened_ranges_stay_true(first: float, another: float, digits: int) -> None:
     low, high = map(F, sorted((first, another)))
-    slack = F(1, 2**51)  # of an end that is a decimal but for the rounding of doubles
+    slack = F(1, 2**51)  # for an end that differs from a decimal number by roundoff
     outer, inner = (
         [F(end) for end in texts.between((low, high), digits, inward=inward).split(" to ")]
         for inward in (False, True)
