@@ -450,7 +450,7 @@ def live_verdicts(
     for claim in ledger.claims.values():
         if not claim.workbook:
             continue
-        value = values[plan.cell(place_of(claim.workbook)).key]
+        value = values[plan.cells[place_of(claim.workbook)].key]
         audit[claim.id] = {"computed": value, "verdict": _verdict(value, claim.interval())}
         if claim.place.cell and claim.printed:
             difference = _difference(value, claim.printed, exact=claim.is_exact)

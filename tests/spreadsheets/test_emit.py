@@ -30,7 +30,7 @@ BOOKS = {scheme: build(scheme=scheme, record=RECORD) for scheme in ("published",
 BOOK = BOOKS["published"]
 PLAN = BOOK.plan
 SHEETS = {sheet.name: sheet for sheet in PLAN.sheets}
-FORMULAS = {place: cell.formula for place, cell in PLAN.cells() if cell.formula}
+FORMULAS = {place: cell.formula for place, cell in PLAN.cells.items() if cell.formula}
 OWN = build(replace(BETA_5, velocity=600.0))
 
 
@@ -49,7 +49,7 @@ MATHEMATICAL = {
 
 def test_formulas_are_ones_that_every_program_reads() -> None:
     """Known functions and names, no physical number, no power but Eq. 11's root, no long text."""
-    names = {cell.name for _, cell in PLAN.cells() if cell.name}
+    names = {cell.name for cell in PLAN.cells.values() if cell.name}
     counted = {str(n) for n in range(1, 12)}  # COUNT(...)=n
     for place, formula in FORMULAS.items():
         bare = re.sub(r'"[^"]*"|\'[^\']*\'!', "", formula)
@@ -66,7 +66,7 @@ def test_formulas_are_ones_that_every_program_reads() -> None:
 
 def test_cells_whose_last_digits_depend_on_the_program_are_found() -> None:
     """By way of cells, names, ranges and other sheets; rows of the scheme are not among them."""
-    keys = {PLAN.cell(place).key for place in PLAN.inexact}
+    keys = {PLAN.cells[place].key for place in PLAN.inexact}
     shown = {f"audit.{name}.computed" for name in ("observed-depth", "frank-zook-rha")}
     assert keys > shown | {"figure_5.depth_um[20]", "crater.least.ratio", "high.over_stop"}
     assert not [key for key in keys if ".row." in key]
@@ -101,14 +101,14 @@ def test_what_the_workbook_calls_printed_is_its_claims_text_also_of_another_repo
     another = build(ledger=ledger, record=RECORD)
     shown = set()
     for book in (*BOOKS.values(), OWN, another):
-        for place, cell in book.plan.cells():
+        for place, cell in book.plan.cells.items():
             assert bool(cell.claim) == (cell.style == "printed") or cell.number is not None, place
             if cell.claim:
                 assert own(cell, ledger if book is another else LEDGER), place
                 shown.add(cell.claim)
     assert shown == set(LEDGER.claims)
     # So do the report's numbers beside the inputs.
-    beside = [cell.number for (sheet, at), cell in another.plan.cells()
+    beside = [cell.number for (sheet, at), cell in another.plan.cells.items()
               if sheet == "Inputs" and at[0] == "H"]  # fmt: skip
     assert {410, 31, 91} <= {*beside}
 
@@ -153,7 +153,7 @@ def test_live_verdicts_under_the_centered_scheme_are_the_audits() -> None:
         if claim.workbook and claim.by_scheme:
             values = BOOKS["centered"].values
             assert values[f"audit.{claim.id}.verdict"] == AS_PRINTED, claim.id
-    cells = dict(BOOKS["centered"].plan.cells())
+    cells = BOOKS["centered"].plan.cells
     told = [cell.text for (sheet, at), cell in cells.items() if sheet == "Audit" and at[0] == "L"]
     by_scheme = [claim.by_scheme for claim in LEDGER.claims.values()]
     assert [text.startswith("With the published scheme: ") for text in told[1:]] == by_scheme
@@ -189,8 +189,7 @@ def test_the_front_sheet_tells_what_holds_and_links_to_it() -> None:
     rows = range(12, 12 + len(LEDGER.claims))
     assert [SHEETS["Audit"].cells[f"A{row}"].text for row in rows] == [*LEDGER.claims]
     assert SHEETS["Audit"].filtered == f"A11:L{rows[-1]}"
-    cells = dict(PLAN.cells())
-    assert all(cell.link in cells for cell in cells.values() if cell.link)
+    assert all(cell.link in PLAN.cells for cell in PLAN.cells.values() if cell.link)
     for name, sheet in SHEETS.items():
         links = [cell.link for cell in sheet.cells.values() if cell.link]
         assert name == "Overview" or ("Overview", "A1") in links
@@ -257,7 +256,7 @@ def test_charts_are_told_in_words_and_by_more_than_color() -> None:
 def test_no_key_and_no_name_stands_twice(book: Workbook) -> None:
     """Excel takes names that differ only in case as the same."""
     for things in ("key", "name"):
-        words = [getattr(cell, things).casefold() for _, cell in book.plan.cells()]
+        words = [getattr(cell, things).casefold() for cell in book.plan.cells.values()]
         assert max(Counter(filter(None, words)).values()) == 1
 
 

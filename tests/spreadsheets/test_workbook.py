@@ -64,7 +64,7 @@ def test_recalculated_values_are_pythons_doubles(engine: Engine, files: dict[str
 def test_file_holds_the_plan_and_its_values(emitted: Any) -> None:
     assert compare(emitted.book.cells, stored(emitted.path)) == []
     content = stored(emitted.path, formulas=True)
-    formulas = {place: cell.formula for place, cell in emitted.book.plan.cells() if cell.formula}
+    formulas = {at: cell.formula for at, cell in emitted.book.plan.cells.items() if cell.formula}
     assert {(s, a): f for s, cells in content.items() for a, f in cells.items()} == formulas
 
 
