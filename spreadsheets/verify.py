@@ -77,17 +77,16 @@ def tolerances(
     itself if it has no such cells.
     """
     numbers = [
-        (place, cell, abs(value))
+        (place, cell.like or cell.key, abs(value))
         for place, cell in plan.cells.items()
         if cell.formula and isinstance(value := expected[place[0]].get(place[1]), float)
     ]
     largest: dict[str, float] = {}
-    for _, cell, number in numbers:
-        largest[cell.like] = max(largest.get(cell.like, 0.0), number)
+    for _, like, number in numbers:
+        largest[like] = max(largest.get(like, 0.0), number)
     return {
-        place: OF_FUNCTIONS * number * (place in plan.inexact)
-        + long_doubles * (largest[cell.like] if cell.like else number)
-        for place, cell, number in numbers
+        place: OF_FUNCTIONS * number * (place in plan.inexact) + long_doubles * largest[like]
+        for place, like, number in numbers
     }
 
 
