@@ -80,11 +80,11 @@ def build(
     pages = [_page(slug, impact, scheme) for slug, impact in impacts.items()]
     typed = _typed_inputs(cases.inputs_of(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
-    # The cases are run with the inputs that their cells hold; they share all of them but beta.
-    held = {
+    # The cases are run with the inputs in their cells, and share all of these but beta.
+    shared = {
         entry.attribute: si[entry.name] for entry in typed if entry.attribute not in ("", "beta")
     }
-    computed = [run(replace(impact, **held), scheme) for impact in impacts.values()]
+    computed = [run(replace(impact, **shared), scheme) for impact in impacts.values()]
     count = cases.prepared_rows(max(sheet.steps for sheet in computed), rows)
     if case is None:
         from replication.audit.audit import audit
@@ -144,8 +144,8 @@ def _si(typed: float, unit: str) -> float:
 def _typed(si: float, unit: str) -> float:
     """Return the number to type so that the cell in use holds an SI value, or the nearest to it."""
     nearest = float(Fraction(si) / to_si(unit))
-    around = nearest, math.nextafter(nearest, math.inf), math.nextafter(nearest, -math.inf)
-    return next((typed for typed in around if _si(typed, unit) == si), nearest)
+    candidates = nearest, math.nextafter(nearest, math.inf), math.nextafter(nearest, -math.inf)
+    return next((typed for typed in candidates if _si(typed, unit) == si), nearest)
 
 
 def _typed_inputs(
@@ -246,25 +246,26 @@ def _inputs(
         "M_p": first.mass,
         "half_step": first.step / 2 * 1e9,
         "mean_radius": si["D_mean"] / 2 * 1e6,
-        **{f"R_t{page.of}": sheet.impact.target_resistance for page, sheet in runs},
     }
-    values: Tree = constants | derived
-    values |= {f"{name}.written": number for name, number in constants.items()}
-    values |= {f"{name}.check": "" for name in constants | derived}
-    changed = 0
-    for entry, number in typed.items():
-        name, check = entry.name, "as inferred" if entry.name == "rho_t" else "the report’s"
-        if number != entry.of_report(ledger):
-            check, changed = "yours", changed + 1
-        values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
-    return values | {
+    resistances = {f"R_t{page.of}": sheet.impact.target_resistance for page, sheet in runs}
+    changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
+    values: Tree = {f"{name}.check": "" for name in (*constants, *derived, *resistances)}
+    values |= constants | {
         "from": "yours",
         "taken": "yours",
         "choice": "",
         "unusable": 0,
-        "changed": changed,
+        "changed": len(changed),
         "message": MESSAGES["changed" if changed else "unchanged"],
+        **derived,
     }
+    values |= {f"{name}.written": number for name, number in constants.items()}
+    for entry, number in typed.items():
+        name = entry.name
+        unchanged = "as inferred" if name == "rho_t" else "the report’s"
+        check = "yours" if name in changed else unchanged
+        values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
+    return values | resistances
 
 
 def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
@@ -320,12 +321,7 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
 def _convergence(runs: Runs, inputs: Tree) -> Tree:
     """Return the ladder of time steps: final depths and their errors against the depth at rest."""
     of_runs = {name: inputs[name] for name in sheets.run_inputs([page for page, _ in runs])}
-    values: Tree = {
-        "message": MESSAGES["current"],
-        "run": of_runs,
-        "in_use": of_runs,
-        "same": dict.fromkeys(of_runs, 1),
-    }
+    values: Tree = {"message": MESSAGES["current"]}
     for page, sheet in runs:
         time_steps = ladder(sheet.impact.step, sheets.LEVELS)
         rest = depth.final_depth(**sheet.impact.motion) * 1e6
@@ -345,7 +341,7 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
             "order": [None, *(sheets.NO_ORDER if order is None else order for order in orders)],
             "state": [_state(level)[1] for level in levels],
         }
-    return values
+    return values | {"run": of_runs, "in_use": of_runs, "same": dict.fromkeys(of_runs, 1)}
 
 
 def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
@@ -532,8 +528,8 @@ def _verdict(value: Value, interval: Interval) -> str:
     else:
         ends = interval.lower, interval.upper
         low, high = (None if end is None else Fraction(float(end)) for end in ends)
-        around = Interval(low, high, interval.lower_closed, interval.upper_closed)
-        inside = around.contains(Fraction(value))
+        in_doubles = Interval(low, high, interval.lower_closed, interval.upper_closed)
+        inside = in_doubles.contains(Fraction(value))
     return sheets.AS_PRINTED if inside else sheets.OTHERWISE
 
 

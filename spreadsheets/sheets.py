@@ -170,8 +170,8 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
             for line in more:
                 page.put(D=Cell(line, "text"))
     _block(page, "verdicts", right="BDE")
-    given = [(verdict, count) for verdict, count in findings.counts.items() if count]
-    for (verdict, count), kind in zip_longest(given, KINDS[: len(given)]):
+    counted = [(verdict, count) for verdict, count in findings.counts.items() if count]
+    for (verdict, count), kind in zip_longest(counted, KINDS[: len(counted)]):
         cells = {"A": Cell(verdict, "link", link=("Audit", "A1")), "B": recorded(float(count))}
         if kind:
             cells["D"] = Cell(kind[0], "number")

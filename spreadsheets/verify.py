@@ -56,14 +56,14 @@ def compare(
         for cell in dict.fromkeys([*expected_cells, *cells]):
             # Engines cannot tell a blank cell from a formula that gives the empty text.
             pair = expected_cells.get(cell), cells.get(cell)
-            right, given = (None if value == "" else value for value in pair)
-            if right == given:  # also if True is given as 1.0, as LibreOffice does
+            right, value = (None if value == "" else value for value in pair)
+            if right == value:  # also if True comes back as 1.0, as from LibreOffice
                 continue
             distance = math.inf
-            if isinstance(right, float) and isinstance(given, float):
-                distance = abs(right - given)
+            if isinstance(right, float) and isinstance(value, float):
+                distance = abs(right - value)
             if distance > allowed.get((sheet, cell), 0.0):
-                differences.append(Difference(sheet, cell, right, given))
+                differences.append(Difference(sheet, cell, right, value))
     return differences
 
 

@@ -1,4 +1,4 @@
-"""The workbook against Python: every cell the same double, in real engines, whatever is typed."""
+"""Real engines compute the same double as Python in every cell, whatever is typed as input."""
 
 import math
 import re
@@ -40,7 +40,7 @@ CASES: dict[str, tuple[Impact | None, str]] = {
     "too long a step": (replace(BETA_5, step=4e-8), "published"),
     "numbers that no unit makes round": (ODD, "centered"),
     "beta of sixteen digits": (replace(BETA_5, beta=4.567890123456789, step=1e-9), "published"),
-    # Near 0.0944 m/s the series takes over from the logarithm.
+    # Below about 0.0944 m/s the workbook computes ln(1 + x) by its series.
     **{
         f"slow, {v} m/s": (replace(BETA_5, velocity=v, stop_velocity=v / 2), "published")
         for v in (1e-4, 0.09, 0.0944, 0.1, 1.0, 30.0)
@@ -54,7 +54,7 @@ def files(build: Callable[..., Workbook], emit_to: Any) -> dict[str, Any]:
 
 
 def test_recalculated_values_are_pythons_doubles(engine: Engine, files: dict[str, Any]) -> None:
-    """In Gnumeric's long doubles they are within the bound."""
+    """Gnumeric computes in long doubles: its values are within the rounding bound."""
     result = engine.recalculate_many([file.path for file in files.values()])
     for (name, file), values in zip(files.items(), result, strict=True):
         bound = file.book.rounding if engine.long_doubles else 0.0
@@ -75,11 +75,11 @@ MATERIALS = (
     "q_Y", "E_t", "HB_ratio", "S_clear", "Y_copper", "L_typ", "k_1", "k_t", "R_t_RHA", "R_t_lower",
     "CV_PV", "d_min", "d_max", "D_mean", "observed_ratio", "V_to",
 )  # fmt: skip
-"""Inputs that belong to no case: each is typed as 0.8 to 1.25 times the report's."""
+"""Inputs that belong to no case; each is typed as 0.8 to 1.25 times the report's number."""
 
 
 def random_cases(seed: int) -> tuple[Impact, Impact]:
-    """Two cases for the report's workbook, with a step that needs one to all of its rows."""
+    """Return two cases for the report's workbook, with a time step for which its rows suffice."""
     draw = Random(seed).uniform
     while True:
         low = Impact(
@@ -87,13 +87,13 @@ def random_cases(seed: int) -> tuple[Impact, Impact]:
             radius=draw(1e-6, 2e-5),
             particle_density=draw(1e3, 2e4),
             target_density=draw(1e3, 2e4),
-            # A label joins beta to a text, where Gnumeric may show digits of a long double: eighths
-            # are the same in all.
+            # A label contains beta, of which Gnumeric may show the digits of a long double. Eighths
+            # look the same in all engines.
             beta=round(draw(8, 64)) / 8,
             flow_stress=draw(1e8, 2e9),
             stop_velocity=draw(0.0, 20.0),
         )
-        # The mean velocity is about half that of the impact: about twice so many steps until rest.
+        # The mean velocity is about half the impact velocity, which doubles the number of steps.
         step = final_depth(*low.motion.values()) / low.velocity / draw(0.5, 180.0)
         cases = replace(low, step=step), replace(low, step=step, beta=round(draw(8, 64)) / 8)
         longest = (run(replace(case, step=dt)).steps for case in cases for dt in (step, 5e-10))
@@ -104,10 +104,10 @@ def random_cases(seed: int) -> tuple[Impact, Impact]:
 def typed_inputs(
     build: Callable[..., Workbook], seed: int, monkeypatch: pytest.MonkeyPatch
 ) -> tuple[dict[str, Value], float]:
-    """What the report's workbook must hold, by key, once random numbers were typed; and its bound.
+    """Return the values of the report's workbook after random numbers are typed, and its bound.
 
-    It is what a workbook holds that is written for a report with these cases and numbers, except
-    for texts that say whether an input is the report's, and for runs that are not live.
+    They are the values of a workbook written for a report with these cases and numbers, except for
+    texts that say whether an input is the report's, and for runs that are not live.
     """
     draw, ledger = Random(seed + 1).uniform, LEDGER
     sources = {name: x["source"] for of in tables()["inputs"].values() for name, x in of.items()}
@@ -157,7 +157,7 @@ def test_typed_inputs_recalculate_to_pythons_doubles(
 
 
 def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(emitted: Any) -> None:
-    """Errors of three times the bound: of the largest of a column, or of the number alone."""
+    """The planted errors are three times the bound, relative to the largest number of a column."""
     book, result = emitted.book, usable("gnumeric").recalculate(emitted.path)
     assert compare(book.cells, result, tolerances(book.plan, book.cells)) != []
     assert compare(book.cells, result, tolerances(book.plan, book.cells, book.rounding / 20)) == []
@@ -178,7 +178,7 @@ def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(emit
 
 
 def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
-    """A step in ns, divided by 1e9, is not always the double that was asked for."""
+    """No step in ns, divided by 1e9, may give exactly the double that was asked for."""
 
     def reachable(step: float) -> list[float]:
         typed = step * 1e9
@@ -192,12 +192,12 @@ def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
     assert values["case.final_depth"] == run(replace(BETA_5, step=content)).final_depth
 
 
-# What the workbook says once somebody works with it
+# What the workbook says after something is typed
 
 KEPT = Path(__file__).with_name("says.txt").read_text("utf-8").split("\n$ ")[1:]
 TYPED = {case.partition("\n")[0]: case.partition("\n")[2].strip("\n") for case in KEPT}
-"""What is typed, by the name of the input and in its unit, or over the cell in use or one of a
-key -> what then stands where."""
+"""What is typed (numbers for inputs, by name and in the unit of their cells, or "over" a formula's
+cell) -> the texts that then stand in the workbook, with the keys of their cells."""
 FOR_ALL = (
     "nothing", "V_impact = nothing", "R_p = eleven", "HB_ratio = nothing",
     "over high.row.depth[40] = 3.9e-06",
@@ -205,7 +205,7 @@ FOR_ALL = (
     "over R_p = eleven", "from = report, over R_t_high = 2e9, over M_p = 5e-11",
     "from = report, V_impact = 600.0, rho_t = 0.0, beta_high = 4.0",
 )  # fmt: skip
-"""What every program is given; the fastest is given all."""
+"""What is typed for every program; all the rest is typed only for the fastest."""
 
 SHOWN = re.compile(
     r"(overview|inputs|low|high|low_coarse|high_coarse|convergence|figure_\d)\.(?!.*(typed|row))[^\[]*"
@@ -215,7 +215,7 @@ COUNTED = re.compile(r".*\b(trust|steps|\w*unusable|\w*changed|\w*none|same\.\w+
 
 
 FAILING = {"frank-zook-rha", "frank-zook-stainless"}
-"""What is not as printed with the report's own inputs."""
+"""Claims that are not as printed with the report's own inputs."""
 
 
 @dataclass(frozen=True)
@@ -233,8 +233,8 @@ class Page:
         computed = [claim.id for claim in LEDGER.claims.values() if claim.workbook]
         return {name for name in computed if self[f"audit.{name}.verdict"] == verdict}
 
-    def told(self, usual: "Page | None") -> str:
-        """Each text, and what it is told of; but for numbers, and what is as usual."""
+    def described(self, usual: "Page | None") -> str:
+        """Return each text, and number of `COUNTED`, with its cells, unless it is as usual."""
         cells: dict[str, list[str]] = {}
         for key in filter(SHOWN.fullmatch, self.emitted.book.values):
             value, number = self[key], not isinstance(self[key], str)
@@ -255,7 +255,7 @@ class Page:
 def pages(
     request: pytest.FixtureRequest, emitted: Any, tmp_path_factory: pytest.TempPathFactory
 ) -> dict[str, Page]:
-    """The workbook with each of these typed, recalculated."""
+    """The recalculated workbook, by what was typed."""
     folder = tmp_path_factory.mktemp("typed")
     names = list(TYPED) if request.param == "formualizer" else FOR_ALL
     paths = []
@@ -272,18 +272,18 @@ def pages(
 
 
 def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
-    """One test for each program, which recalculates all the files once."""
+    """For each program in one test, since it recalculates all files at once."""
     report = pages["nothing"]
     for name, page in pages.items():
-        in_row = "row" in name and name.endswith("text")  # which spoils the rows after it
+        in_row = "row" in name and name.endswith("text")  # makes errors of the rows below it
         assert bool([*page.errors]) == in_row, name
-        assert page.told(None if page is report else report) == TYPED[name], name
-        # What is not computed is called so, and not wrong.
+        assert page.described(None if page is report else report) == TYPED[name], name
+        # What is not computed is not called wrong.
         assert page.verdicts(OTHERWISE) <= FAILING or not page["inputs.unusable"], name
         assert page["audit.none"] == len(page.verdicts(NOT_COMPUTED)), name
         about_craters = name in ("CV_PV = 0.6", "HB_ratio = nothing")
         assert page["high.depth_um"] == report["high.depth_um"] or not about_craters
-    # The switch brings the report's inputs back.
+    # With the switch, the workbook is again that of the report's inputs.
     switched = pages[FOR_ALL[-1]]
     another = {f"inputs.{name}.typed" for name in ("V_impact", "rho_t", "beta_high")}
     of_switch = {"inputs.from", "inputs.taken", "inputs.message"}
@@ -308,7 +308,7 @@ def test_a_given_resistance_is_called_so_until_that_of_the_report_is_taken(
 
 
 def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path: Path) -> None:
-    """Every sixth input is left blank, so that each formula lacks one of its own here or there."""
+    """Every sixth input is left blank, beginning in turn with each of the first six."""
     names, paths = [key for key in emitted.book.values if key.endswith(".typed")], []
     for first in range(6):
         blank = dict.fromkeys(names[first::6])
