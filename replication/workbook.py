@@ -77,7 +77,7 @@ def build(
     """
     ledger, findings = ledger or load(), None
     impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
-    pages = [_page(slug, impact, scheme) for slug, impact in impacts.items()]
+    pages = [_case_sheet(slug, impact, scheme) for slug, impact in impacts.items()]
     typed = _typed_inputs(cases.inputs_of(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
     # The cases are run with the inputs in their cells, and share all of these but beta.
@@ -169,7 +169,7 @@ def _typed_inputs(
     return typed
 
 
-def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
+def _case_sheet(slug: str, impact: Impact, scheme: str) -> CaseSheet:
     """Return the sheet of a case, whose length is not known yet."""
     beta, name, label = impact.beta, "Sheet", MESSAGES["as_given"]
     if beta is not None:
@@ -201,7 +201,7 @@ def _values(
 ) -> Tree:
     """Return every value but the live verdicts; `si` has the inputs in SI units, by name."""
     inputs = _inputs(ledger, runs, typed, si)
-    pages = {page.part: _sheet(page, sheet, si) for page, sheet in runs}
+    pages = {page.part: _case_values(page, sheet, si) for page, sheet in runs}
     for page in (page for page, _ in runs if page.coarse):
         values, fine = pages[page.part], pages[page.slug]["depth_um"]
         over = values["depth_um"] / fine if fine else NOT_COMPUTED
@@ -220,7 +220,7 @@ def _values(
             **{part: {key: page[key] for key in results} for part, page in pages.items()},
         },
         "table": {name: table[name] for name in cases.ABOVE_TABLE} | {"row": rows},
-        "figure_3": {page.slug: _curve(page, sheet) for page, sheet in runs},
+        "figure_3": {page.slug: _figure_3_curve(page, sheet) for page, sheet in runs},
         "figure_5": _figure_5(last.impact, si),
         "convergence": _convergence(runs, inputs),
         "frank_zook": _frank_zook(last.impact, si),
@@ -247,7 +247,9 @@ def _inputs(
         "half_step": first.step / 2 * 1e9,
         "mean_radius": si["D_mean"] / 2 * 1e6,
     }
-    resistances = {f"R_t{page.of}": sheet.impact.target_resistance for page, sheet in runs}
+    resistances = {
+        f"R_t{page.input_suffix}": sheet.impact.target_resistance for page, sheet in runs
+    }
     changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
     values: Tree = {f"{name}.check": "" for name in (*constants, *derived, *resistances)}
     values |= constants | {
@@ -268,9 +270,9 @@ def _inputs(
     return values | resistances
 
 
-def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
+def _case_values(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     impact, final = sheet.impact, sheet.rows[-1]
-    trust, message = _state(sheet)
+    trust, message = _run_state(sheet)
     v, at_rest = impact.velocity, _without_steps(impact)
     at_stop = _without_steps(impact, to_stop=True)
     rest, stop = at_rest["normalized_depth"], at_stop["normalized_depth"]
@@ -281,7 +283,7 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
         **{name: getattr(sheet, name) for name in ("steps", "final_depth", "normalized_depth")},
         "label": page.label,
         "renamed": None if page.resistance_given else "",
-        "row": _columns(sheet, page.rows),
+        "row": _row_columns(sheet, page.rows),
         "message": message,
         "trust": trust,
         "stopped": 1,
@@ -300,13 +302,13 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     }
 
 
-def _curve(page: CaseSheet, sheet: Sheet) -> Tree:
+def _figure_3_curve(page: CaseSheet, sheet: Sheet) -> Tree:
     """Return a curve of Figure 3 in ns and µm; after the stop, the last row is repeated."""
     rows = [sheet.rows[min(k, sheet.steps)] for k in range(page.rows + 1)]
     return {
         "time": [row.time * 1e9 for row in rows],
         "depth": [row.depth * 1e6 for row in rows],
-        "message": f"{page.label}: {_state(sheet)[1]}",
+        "message": f"{page.label}: {_run_state(sheet)[1]}",
     }
 
 
@@ -339,7 +341,7 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
             "error": errors,
             "size": list(map(abs, errors)),
             "order": [None, *(sheets.NO_ORDER if order is None else order for order in orders)],
-            "state": [_state(level)[1] for level in levels],
+            "state": [_run_state(level)[1] for level in levels],
         }
     return values | {"run": of_runs, "in_use": of_runs, "same": dict.fromkeys(of_runs, 1)}
 
@@ -453,7 +455,7 @@ def live_verdicts(
         if not claim.workbook:
             continue
         value = values[plan.cells[place_of(claim.workbook)].key]
-        audit[claim.id] = {"computed": value, "verdict": _verdict(value, claim.interval())}
+        audit[claim.id] = {"computed": value, "verdict": _live_verdict(value, claim.interval())}
         if claim.place.cell and claim.printed:
             difference = _difference(value, claim.printed, exact=claim.is_exact)
             table[claim.place.cell] = audit[claim.id] | {"difference": difference}
@@ -486,7 +488,7 @@ def _without_steps(impact: Impact, to_stop: bool = False) -> dict[str, float]:
     }
 
 
-def _state(sheet: Sheet) -> tuple[int, str]:
+def _run_state(sheet: Sheet) -> tuple[int, str]:
     """Return how far a run can be trusted, and the message that says so.
 
     2: it is sound; 1: only its last velocity is not; 0: it must not be used.
@@ -500,7 +502,7 @@ def _state(sheet: Sheet) -> tuple[int, str]:
     return 0, MESSAGES[{0: "no_steps", 1: "one_step"}.get(sheet.steps, doubt)]
 
 
-def _columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
+def _row_columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
     """Return the cells of rows 0 to `count`, by column; below the stop they are blank ("")."""
     impact = sheet.impact
     columns: dict[str, Any] = dict(zip(Row._fields, zip(*sheet.rows, strict=True), strict=True))
@@ -517,7 +519,7 @@ def _columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
     return {name: [*column, *blank] for name, column in columns.items()}
 
 
-def _verdict(value: Value, interval: Interval) -> str:
+def _live_verdict(value: Value, interval: Interval) -> str:
     """Return the live verdict on a double; the ends of the interval are taken as doubles, too."""
     if not isinstance(value, float):
         return NOT_COMPUTED

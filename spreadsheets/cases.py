@@ -64,7 +64,7 @@ class CaseSheet:
     coarse: bool = False
 
     @property
-    def of(self) -> str:
+    def input_suffix(self) -> str:
         """The ending of the defined names of its inputs: "_low" as in R_t_low, or nothing."""
         return "" if self.slug == "case" else f"_{self.slug}"
 
@@ -89,8 +89,8 @@ class CaseSheet:
         depth, ratio = (f"{kind}-beta-{self.beta}" for kind in ("depth", "ratio"))
         claimed = self.is_reports and not self.coarse
         return {
-            "slug": self.slug, "part": self.part, "of": self.of, "suffix": self.suffix,
-            "sheet": self.name, "label": self.label, "beta": self.beta,
+            "slug": self.slug, "part": self.part, "sheet": self.name, "label": self.label,
+            "beta": self.beta, "input_suffix": self.input_suffix, "suffix": self.suffix,
             "dt": "dt_coarse" if self.coarse else "dt_s",
             "not_longer": "IF(ISNUMBER(dt_s),dt_coarse<=dt_s,1=0)" if self.coarse else "1=0",
             **{column: f"{column}{FIRST_ROW}:{column}{FIRST_ROW + self.rows}" for column in "ABDF"},
@@ -151,7 +151,7 @@ def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]
 
     report: whether it is the report's own workbook.
     """
-    left_out = {"Y_t", "beta{of}"} if cases[0].resistance_given else {"R_t"}
+    left_out = {"Y_t", "beta{input_suffix}"} if cases[0].resistance_given else {"R_t"}
     left_out |= set() if report else {"dt_coarse"}
     blocks: dict[str, list[Input]] = {}
     for block, entries in tables()["inputs"].items():

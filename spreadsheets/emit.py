@@ -59,7 +59,7 @@ def check(path: Path, *, force: bool = False) -> None:
 _SEAL, _SEALED, _UNSEALED = "coldspray-sha256", "docProps/custom.xml", "0" * 64
 
 _CORRECTIONS = (
-    # XlsxWriter names Excel as the program, and gives dates of creation and change.
+    # XlsxWriter names Excel as the program, and gives dates, which would differ in every run.
     ("docProps/app.xml", rb">Microsoft Excel<", rb">coldspray<"),
     ("docProps/app.xml", rb"<AppVersion>.*?</AppVersion>", rb""),
     ("docProps/core.xml", rb"<dcterms:(created|modified).*?</dcterms:\1>", rb""),

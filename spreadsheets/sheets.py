@@ -93,7 +93,7 @@ def workbook_plan(
     return plan
 
 
-def _block(page: SheetPlan, table: str, right: str = "") -> None:
+def _table_heads(page: SheetPlan, table: str, right: str = "") -> None:
     """Add the heads of a table of `Overview`, after a blank row."""
     heads = page.entry["heads"][table]
     page.row += 1
@@ -118,13 +118,13 @@ def _overview(
         page.say(findings.headline, style="headline", width=140)
     _results(page, ledger, pages)
     if findings is not None:
-        _what_fails(page, ledger, findings)
+        _failures(page, ledger, findings)
         page.page_break = page.row
-    _block(page, "sheets")
+    _table_heads(page, "sheets")
     for sheet in sheets:
         link = Cell(sheet.name, "link", link=(sheet.name, "A1"))
         page.put(A=link, B=Cell(sheet.entry["shows"]))
-    _block(page, "how_to_read")
+    _table_heads(page, "how_to_read")
     for style, meaning in page.entry["how_to_read"].items():
         page.put(A=Cell("1.23", f"{style} sample"), B=Cell(meaning, "text"))
     page.print_area = f"A1:F{page.row - 1}"
@@ -133,20 +133,22 @@ def _overview(
 
 def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
     """Add the final depth of every case, the state of its run, and the counts of inputs."""
-    _block(page, "results", right="BCDE")
+    _table_heads(page, "results", right="BCDE")
     for case in cases:
-        key, sheet, fixed = f"overview.{case.part}", f"'{case.name}'!", {"shown": "0.0000"}
+        key, sheet, suffix = f"overview.{case.part}", f"'{case.name}'!", case.suffix
+        look = {"style": "result", "shown": "0.0000"}
+        in_um = {"unit": "um", "like": f"{case.part}.depth_um"}
+        depth, ratio = case.words["depth_claim"], case.words["ratio_claim"]
         # A sheet keeps its name if beta is changed: the state then begins with the beta in use.
         beta = "" if case.resistance_given else f'IF({sheet}I2="","",{sheet}I1&": ")&'
-        end, like = case.suffix, {"unit": "um", "like": f"{case.part}.depth_um"}
         page.rules += case.rules(f"F{page.row}")
         page.put(
             A=Cell(case.name, "link", link=(case.name, "A1")),
-            B=formula(f"{key}.depth_um", f"=depth_um{end}", "result", **like, **fixed),
-            D=formula(f"{key}.normalized_depth", f"=normalized_depth{end}", "result", **fixed),
-            F=formula(f"{key}.message", f"={beta}message{end}", "state"),
-            C=printed(ledger, depth, "um") if (depth := case.words["depth_claim"]) else None,
-            E=printed(ledger, ratio) if (ratio := case.words["ratio_claim"]) else None,
+            B=formula(f"{key}.depth_um", f"=depth_um{suffix}", **in_um, **look),
+            D=formula(f"{key}.normalized_depth", f"=normalized_depth{suffix}", **look),
+            F=formula(f"{key}.message", f"={beta}message{suffix}", "state"),
+            C=printed(ledger, depth, "um") if depth else None,
+            E=printed(ledger, ratio) if ratio else None,
         )
     for name, label in page.entry["counts"].items():
         page.rules.append(Rule(f"B{page.row}", f"={name}>0", "warning"))
@@ -154,10 +156,10 @@ def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> Non
         page.put(A=Cell(label, "link", link=("Inputs", "A1")), B=count)
 
 
-def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
+def _failures(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
     """Add the claims that fail, each with its explanation, and the counts of all verdicts."""
     for table, names in (("failing", findings.failing), ("differing", findings.differing)):
-        _block(page, table, right="BC")
+        _table_heads(page, table, right="BC")
         for name in names:
             claim = ledger.claims[name]
             first, *more = wrap(findings.explanations[name], 100)
@@ -169,7 +171,7 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
             page.put(**cells)
             for line in more:
                 page.put(D=Cell(line, "text"))
-    _block(page, "verdicts", right="BDE")
+    _table_heads(page, "verdicts", right="BDE")
     counted = [(verdict, count) for verdict, count in findings.counts.items() if count]
     for (verdict, count), kind in zip_longest(counted, KINDS[: len(counted)]):
         cells = {"A": Cell(verdict, "link", link=("Audit", "A1")), "B": recorded(float(count))}
@@ -198,7 +200,7 @@ DIGITS = 4
 """Decimals of a difference; rounding makes 0 of 3 times 0.2 ns minus 0.6 ns."""
 
 
-def _colors(cells: str) -> list[Rule]:
+def _verdict_colors(cells: str) -> list[Rule]:
     """Return the rules that color the live verdicts in these cells of one column."""
     first = cells.partition(":")[0]
     styles = {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"}
@@ -220,8 +222,8 @@ def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
     page.row = _HEAD_ROW
     page.table("CEHI", "B")
     for claim in ledger.claims.values():
-        page.put(**_row(ledger, claim, findings, page.row))
-    page.rules = _colors(verdicts)
+        page.put(**_claim_row(ledger, claim, findings, page.row))
+    page.rules = _verdict_colors(verdicts)
     return page
 
 
@@ -249,11 +251,11 @@ def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
             G=formula(f"{key}.verdict", live, "text"),
             H=recorded(float(claim.printed.quantum), shown="0E+00"),
         )
-    page.rules = _colors(f"G{first}:G{page.row - 1}")
+    page.rules = _verdict_colors(f"G{first}:G{page.row - 1}")
     return page
 
 
-def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
+def _claim_row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
     """Return a claim's row; if a cell computes it, with a live verdict and the printed interval."""
     cells = {
         "A": Cell(claim.id),
@@ -275,12 +277,12 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
             cells[column] = recorded(float(end), shown=shown, claim=claim.id)
     return cells | {
         "E": formula(f"{key}.computed", "='{}'!{}".format(*place), shown=shown, unit=claim.unit),
-        "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
+        "F": formula(f"{key}.verdict", _live_verdict(claim, row), "text"),
         "K": Cell(claim.workbook, "link", link=place),
     }
 
 
-def _inside(claim: Claim, row: int) -> str:
+def _live_verdict(claim: Claim, row: int) -> str:
     """Return the live verdict: whether E lies between H and I, which are open or closed ends."""
     interval, tests = claim.interval(), []
     if interval.is_point:
@@ -351,7 +353,9 @@ def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
     """Return the names of all numbers on which the runs depend: inputs, derived numbers and π."""
     blocks = inputs_of(cases, report=False).values()
     typed = [entry.name for block in blocks for entry in block if entry.attribute]
-    return list(dict.fromkeys([*typed, "D_p", "M_p", "pi_", *(f"R_t{case.of}" for case in cases)]))
+    return list(
+        dict.fromkeys([*typed, "D_p", "M_p", "pi_", *(f"R_t{case.input_suffix}" for case in cases)])
+    )
 
 
 NO_ORDER = "–"
