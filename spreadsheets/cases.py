@@ -17,6 +17,7 @@ from reference.units import to_si
 from spreadsheets.plan import (
     FIRST_ROW,
     HOME,
+    TABLES,
     Cell,
     Rule,
     SheetPlan,
@@ -26,7 +27,6 @@ from spreadsheets.plan import (
     printed,
     recorded,
     row_formulas,
-    tables,
     unit_text,
 )
 
@@ -154,12 +154,12 @@ def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]
     left_out = {"Y_t", "beta{input_suffix}"} if cases[0].resistance_given else {"R_t"}
     left_out |= set() if report else {"dt_coarse"}
     blocks: dict[str, list[Input]] = {}
-    for block, entries in tables()["inputs"].items():
+    for block, entries in TABLES["inputs"].items():
         named: dict[str, Input] = {}
         for case, (name, entry) in product(cases, entries.items()):
             if name not in left_out:
                 fields = {"name": name, "unit": "1", **entry}
-                fields = filled_in(tables()["units"][fields["unit"]] | fields, case.words)
+                fields = filled_in(TABLES["units"][fields["unit"]] | fields, case.words)
                 fields["limits"] = tuple(fields["limits"])
                 named[fields["name"]] = Input(**fields)
         blocks[block] = [*named.values()]
@@ -178,7 +178,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
             page.put(**_input(ledger, typed, page.row))
         page.row += 1
     page.put(A=Cell("What follows from them", "block"))
-    derived = dict(tables()["derived"])
+    derived = dict(TABLES["derived"])
     if cases[0].resistance_given:
         del derived["target"]
     first_derived, words = page.row, [case.words for case in cases]
@@ -188,7 +188,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
         page.cells[f"E{row}"] = _check(in_use, row, '""', named=bool(in_use.name))
     page.row += 1
     page.put(A=Cell("Constants", "block"), H=Cell("as written", "recorded"))
-    for name, entry in tables()["constants"].items():
+    for name, entry in TABLES["constants"].items():
         key, unit, name_text = f"inputs.{name}", entry["unit"], Cell(name, "unit")
         check = f'=IF(F{page.row}=H{page.row},"","typed over")'
         page.put(
@@ -233,7 +233,7 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
     else:
         style, same, place = "input", "the report’s", str(ledger.claims[entry.source].place)
         prints = printed(ledger, entry.source, entry.unit)
-    texts = filled_in(tables()["input"], {"row": row, "factor": entry.factor, "same": same})
+    texts = filled_in(TABLES["input"], {"row": row, "factor": entry.factor, "same": same})
     shown = "0.0####E+00" if entry.factor else "General"
     in_use = formula(key, texts["in_use"], name=entry.name, unit=unit, shown=shown)
     return {
@@ -256,7 +256,7 @@ def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
 def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     """Plan the sheet of one case: title with the live β, state of the run, notes, rows, results."""
     centered, top = case.scheme == "centered", FIRST_ROW - 2
-    columns = dict(tables()["rows"])
+    columns = dict(TABLES["rows"])
     if not centered:
         del columns["H"]
     page = SheetPlan.begun(
@@ -275,7 +275,7 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     words = case.words | {"drag": "H" if centered else "C"}
     page.grid(columns, f"{case.part}.row", words, case.rows + 1)
     page.row = top
-    results = tables()["case"] | (tables()["coarse"] if case.coarse else {})
+    results = TABLES["case"] | (TABLES["coarse"] if case.coarse else {})
     page.lines(ledger, case.part, results, [case.words], "IJKLMN")
     page.headed = "A", top, top + 1
     page.print_area = f"A1:M{max(FIRST_ROW + case.steps, page.row - 1)}"
@@ -294,7 +294,7 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
 TABLE_ROWS = 5
 """Number of rows, including row 0, the impact itself."""
 
-ABOVE_TABLE: Mapping[str, Sequence[str]] = tables()["table_a1"]["above"]
+ABOVE_TABLE: Mapping[str, Sequence[str]] = TABLES["table_a1"]["above"]
 """Label and input of each cell above the rows, by the end of its key."""
 
 _FIRST = 8
@@ -313,7 +313,7 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     claims, centered = claims_in_table(ledger), case.scheme == "centered"
     page = SheetPlan.begun("Table A-1")
     page.widths = {**page.widths, "G": 13.0 if centered else page.widths["G"]}
-    entries, heads, cells = tables()["rows"], tables()["table_a1"]["heads"], page.cells
+    entries, heads, cells = TABLES["rows"], TABLES["table_a1"]["heads"], page.cells
     if centered:
         heads = {**heads, "G": entries["H"]["head"]}
 
@@ -328,7 +328,7 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         cells[f"A{row}"] = Cell(label)
         live(f"B{row}", key, f"={symbol}".format_map(case.words))
     words = case.words | {"drag": "G" if centered else "C"}
-    entries = {**entries, "A": tables()["table_a1"]["time"], "B": {}, "G": entries["H"]}
+    entries = {**entries, "A": TABLES["table_a1"]["time"], "B": {}, "G": entries["H"]}
     for column, head in heads.items():
         cells[f"{column}{_FIRST - 1}"] = Cell(head, "head" if column in "AB" else "head right")
         entry = entries[column]
@@ -353,7 +353,7 @@ def _as_printed(ledger: Ledger, claims: dict[str, Claim]) -> dict[str, Cell]:
     shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
     labels = enumerate((label for label, _ in ABOVE_TABLE.values()), start=1)
     cells = {f"H{row}": Cell(label, "unit") for row, label in labels}
-    for column, head in tables()["table_a1"]["heads"].items():
+    for column, head in TABLES["table_a1"]["heads"].items():
         if head:
             cells[f"{shifted[column]}{_FIRST - 1}"] = Cell(head, "unit right")
     for address, claim in claims.items():

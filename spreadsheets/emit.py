@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan, tables
+from spreadsheets.plan import TABLES, Cell, SheetPlan, Value, WorkbookPlan
 from spreadsheets.safely import UNREADABLE, check_target
 
 _ARIAL = {"font_name": "Arial", "font_size": 10}
@@ -118,7 +118,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     @cache
     def style(name: str, number_format: str, wrap: bool) -> Any:
         name, sample, _ = name.partition(" sample")
-        look = {**_ARIAL, "font_color": "#000000", **tables()["styles"][name], "text_wrap": wrap}
+        look = {**_ARIAL, "font_color": "#000000", **TABLES["styles"][name], "text_wrap": wrap}
         look |= {"align": "center"} if sample else {}
         return book.add_format({**look, "num_format": number_format, "valign": "vcenter"})
 
@@ -142,7 +142,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
                     raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
         for rule in sheet.rules:
             # The format of a rule names only what it changes, so neither font nor number format.
-            look = book.add_format(tables()["rules"][rule.style])
+            look = book.add_format(TABLES["rules"][rule.style])
             options = {"type": "formula", "criteria": rule.formula, "format": look}
             page.conditional_format(rule.cells, options)
         if sheet.curves:
@@ -232,7 +232,7 @@ def _draw(book: Any, page: Any, sheet: SheetPlan, description: str) -> None:
     chart = sheet.entry["chart"]
     logarithmic = chart.get("logarithmic", False)
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
-    for curve, look in zip(sheet.curves, tables()["curves"], strict=False):
+    for curve, look in zip(sheet.curves, TABLES["curves"], strict=False):
         settings = {
             "name": f"={_absolute(*curve.name)}",
             "categories": f"={_absolute(sheet.name, curve.x)}",

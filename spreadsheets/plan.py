@@ -9,7 +9,7 @@ import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cached_property
 from pathlib import Path
 from string import ascii_uppercase
 from textwrap import wrap
@@ -110,13 +110,12 @@ class Curve(NamedTuple):
     y: str
 
 
-@cache
-def tables() -> dict[str, Any]:
-    """Return the tables of `sheets.toml`."""
-    return tomllib.loads(Path(__file__).with_name("sheets.toml").read_text(encoding="utf-8"))
+TABLES: Mapping[str, Any] = tomllib.loads(
+    Path(__file__).with_name("sheets.toml").read_text(encoding="utf-8")
+)
+"""The tables of `sheets.toml`."""
 
-
-MESSAGES: Mapping[str, str] = tables()["messages"]
+MESSAGES: Mapping[str, str] = TABLES["messages"]
 """The messages of the workbook about its inputs and runs, by short names."""
 
 
@@ -128,7 +127,7 @@ def filled(text: str, words: Mapping[str, object]) -> str:
     """
 
     def called(match: re.Match[str]) -> str:
-        return re.sub(r"\bx\b", match[2], tables()["functions"][match[1]])
+        return re.sub(r"\bx\b", match[2], TABLES["functions"][match[1]])
 
     text = re.sub(r"\{(\w+):((?:\w|\{\w+\})+)\}", called, text)
     return text.format_map({**MESSAGES, "none": NOT_COMPUTED, **words})
@@ -169,7 +168,7 @@ class SheetPlan:
     @classmethod
     def begun(cls, kind: str, name: str = "", **words: object) -> "SheetPlan":
         """Begin a sheet with what `sheets.toml` has under `pages`: title, link home and notes."""
-        entry = tables()["pages"][kind]
+        entry = TABLES["pages"][kind]
         widths = {c: width for letters, width in entry.get("widths", {}).items() for c in letters}
         page = cls(
             name=name or kind, entry=entry, widths=widths,
@@ -265,7 +264,7 @@ class SheetPlan:
         value, unit, printed text and source. headed: whether columns and blocks have heads.
         """
         if headed:
-            self.heads(columns, [head for head, _ in tables()["lines"]], columns[2] + columns[4])
+            self.heads(columns, [head for head, _ in TABLES["lines"]], columns[2] + columns[4])
         addresses: dict[str, str] = {}
         for number, (head, block) in enumerate(blocks.items()):
             if headed:

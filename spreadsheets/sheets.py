@@ -25,6 +25,7 @@ from spreadsheets.plan import (
     HOME,
     MESSAGES,
     NOT_COMPUTED,
+    TABLES,
     Cell,
     Curve,
     Rule,
@@ -37,7 +38,6 @@ from spreadsheets.plan import (
     place_of,
     printed,
     recorded,
-    tables,
     unit_text,
 )
 
@@ -83,7 +83,7 @@ def workbook_plan(
     sheets += [_formulas(ledger, name, words) for name in ("Frank-Zook", "Crater", "Resistance")]
     sheets += [_audit(ledger, findings)] if findings else []
     about = {name: getattr(ledger.report, name) for name in ("title", "author", "year")}
-    properties = filled_in(tables()["properties"], {**about, "program": PROGRAM})
+    properties = filled_in(TABLES["properties"], {**about, "program": PROGRAM})
     overview = _overview(ledger, pages, sheets, findings)
     plan = WorkbookPlan(sheets=(overview, *sheets), properties=properties)
     for claim in ledger.claims.values() if report else ():
@@ -107,7 +107,7 @@ def _overview(
     """Plan the first sheet; `sheets` are the others, to which it links."""
     report, scheme = ledger.report, pages[0].scheme
     page = SheetPlan.begun(HOME)
-    title = filled(tables()["properties"]["title"], {"title": report.title})
+    title = filled(TABLES["properties"]["title"], {"title": report.title})
     page.put(A=Cell(title, "title"))
     page.say(
         f"After the report by {report.author} ({report.year}). Written by {PROGRAM}; "
@@ -185,10 +185,10 @@ def _failures(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
 def _formulas(ledger: Ledger, name: str, words: Sequence[Mapping[str, object]]) -> SheetPlan:
     """Plan a sheet of closed formulas: notes and one table. Keys begin with the sheet's name."""
     page, part = SheetPlan.begun(name), name.lower().replace("-", "_")
-    page.widths = {c: width for c, (_, width) in zip("ABCDEF", tables()["lines"], strict=True)}
+    page.widths = {c: width for c, (_, width) in zip("ABCDEF", TABLES["lines"], strict=True)}
     page.row += 1
     page.headed = "A", page.row, page.row
-    page.lines(ledger, part, tables()[part], words)
+    page.lines(ledger, part, TABLES[part], words)
     return page
 
 

@@ -21,7 +21,7 @@ from replication.cases import BETA_5
 from replication.workbook import Workbook, build
 from spreadsheets import emit, safely
 from spreadsheets.cases import prepared_rows
-from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan, place_of, tables
+from spreadsheets.plan import TABLES, Cell, SheetPlan, WorkbookPlan, place_of
 from spreadsheets.sheets import AS_PRINTED, OTHERWISE
 
 LEDGER = load()
@@ -239,7 +239,7 @@ def test_verdicts_and_checks_stand_on_the_first_screen() -> None:
 
 
 def test_charts_have_titles_with_units_and_curves_that_differ_in_more_than_color() -> None:
-    looks = tables()["curves"]
+    looks = TABLES["curves"]
     assert len({look["dash"] for look in looks}) == len({look["marker"] for look in looks}) == 2
     for name in ("Figure 3", "Figure 5", "Convergence"):
         page = SHEETS[name]

@@ -23,7 +23,7 @@ from replication.models.sheet import run
 from replication.workbook import Workbook, findings_of, live_verdicts
 from spreadsheets import emit
 from spreadsheets.engines import Engine, Values
-from spreadsheets.plan import NOT_COMPUTED, Value, tables
+from spreadsheets.plan import NOT_COMPUTED, TABLES, Value
 from spreadsheets.sheets import OTHERWISE
 from spreadsheets.verify import compare, tolerances
 
@@ -110,7 +110,7 @@ def typed_inputs(
     texts that say whether an input is the report's, and for runs that are not live.
     """
     draw, ledger = Random(seed + 1).uniform, LEDGER
-    sources = {name: x["source"] for of in tables()["inputs"].values() for name, x in of.items()}
+    sources = {name: x["source"] for of in TABLES["inputs"].values() for name, x in of.items()}
     for source in map(sources.__getitem__, MATERIALS):
         number = float(LEDGER.value(source) / to_si(LEDGER.claims[source].unit))
         ledger = ledger.misprint(source, f"{number * draw(0.8, 1.25):.3f}")
