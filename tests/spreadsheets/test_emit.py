@@ -204,7 +204,7 @@ def beside(sheet: str, symbol: str) -> dict[str, str]:
 
 test_what_the_workbooks_hold = calls(
     "spreadsheets/kept.txt",
-    "Workbooks: the report's, with either scheme, and one of a case of one's own",
+    "The report's workbook, with either scheme, and the workbook of another case",
     globals(),
 )
 
@@ -276,9 +276,9 @@ def plan_of(**cells: Cell) -> WorkbookPlan:
     return WorkbookPlan(sheets=(SheetPlan(name="S", cells=cells, widths={"A": 10.0}),))
 
 
-test_rows_to_prepare_and_what_no_file_is_made_of = calls(
+test_rows_to_prepare_and_refused_values = calls(
     "spreadsheets/kept.txt",
-    "Rows to prepare, and what no file is made of",
+    "Rows to prepare, and values that are refused",
     {"to_bytes": emit.to_bytes, "plan_of": plan_of, "Cell": Cell, "prepared_rows": prepared_rows},
 )
 

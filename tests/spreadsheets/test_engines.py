@@ -35,9 +35,9 @@ def formulas(section: str) -> dict[str, tuple[str, Any]]:
 
 INPUTS = {"A1": 0.1, "A2": 0.2, "A3": 6e-10, "A4": 1.25e-05, "A5": 7670.0, "A6": 3.0}
 NUMBERS = formulas(
-    "Formulas of numbers, and Python's doubles for the same operations in the same order"
+    "Formulas of numbers, with Python's doubles for the same operations in the same order"
 )
-OTHERS = formulas("Formulas, and the values documented for them; null for no value at all")
+OTHERS = formulas("Formulas with their documented values; null means no value")
 
 LONG_DOUBLE_ERROR = 1e-15
 """Debian's Gnumeric rounds once, on reading its result; Python rounds each input and each step.
@@ -177,7 +177,10 @@ def check(tmp_path: Path) -> Callable[..., EngineCheck]:
     return check
 
 
-@kept("spreadsheets/kept.txt", "Cells that an engine gives otherwise: in doubles, in long doubles")
+@kept(
+    "spreadsheets/kept.txt",
+    "Wrong values of an engine, and its outcome if it computes in doubles, in long doubles",
+)
 def test_one_wrong_cell_is_enough(
     question: str, answer: str, check: Callable[..., EngineCheck]
 ) -> None:
