@@ -1,7 +1,7 @@
-"""The live workbook of the report, or of one case: its values by key, its file, its verification.
+"""The live workbook of the report, or of one case: its plan, its values by key, and its file.
 
-The values come from the models, computed without any knowledge of the formula texts; a value and
-the formula that must give it meet in one cell. The plan's `where` tells which cell holds a key.
+The models compute the values without any knowledge of the formulas. A value and the formula that
+must give it meet in one cell, which the plan's `where` names for each key.
 """
 
 import math
@@ -36,7 +36,7 @@ from spreadsheets.verify import rounding_bound
 class Workbook:
     """A workbook before it is a file.
 
-    warnings: about runs that are not to be trusted. rounding: `rounding_bound` of its sheets.
+    warnings: about runs that cannot be trusted. rounding: the largest `rounding_bound` of its runs.
     """
 
     plan: WorkbookPlan
@@ -45,7 +45,7 @@ class Workbook:
     rounding: float
 
     def to_bytes(self) -> bytes:
-        """The bytes of the .xlsx file."""
+        """Return the bytes of the .xlsx file."""
         return emit.to_bytes(self.plan, self.values)
 
     @property
@@ -62,13 +62,13 @@ def build(
     *,
     ledger: Ledger | None = None,
 ) -> Workbook:
-    """The workbook of a case; without a case, the report's own.
+    """Build the workbook of a case; without a case, the report's own.
 
-    The report's has both of its cases, and what is about the report alone: the sheets with its
-    other time step, the check of Table A-1, and the audit. scheme: one of `SCHEMES`. rows: those to
-    prepare after row 0, by default twice as many as the longest case takes. record: the finished
-    audit, made where it is needed and not given. An input is rounded to what its cell can hold.
-    Raises ValueError for a number that the workbook does not take, and for too few rows.
+    The report's own has both of its cases, and what concerns only the report: the sheets with its
+    longer time step, the check of Table A-1, and the audit. scheme: one of `SCHEMES`. rows: how
+    many to prepare after row 0; by default twice as many as the longest case takes. record: the
+    finished audit, which is made if it is needed but not given. Each input is rounded to a value
+    that its cell can hold. Raises ValueError for an input outside of its limits, or too few rows.
 
     >>> book = build(BETA_5)
     >>> place = book.plan.where["case.depth_um"]
@@ -77,14 +77,14 @@ def build(
     """
     ledger, findings = ledger or load(), None
     impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
-    pages = [_page(slug, impact, scheme) for slug, impact in impacts.items()]
+    pages = [_case_sheet(slug, impact, scheme) for slug, impact in impacts.items()]
     typed = _typed_inputs(cases.inputs_of(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
-    # The cases with the numbers that their cells hold; they share all but the beta.
-    in_cells = {
+    # The cases are run with the inputs in their cells, and share all of these but beta.
+    shared = {
         entry.attribute: si[entry.name] for entry in typed if entry.attribute not in ("", "beta")
     }
-    computed = [run(replace(impact, **in_cells), scheme) for impact in impacts.values()]
+    computed = [run(replace(impact, **shared), scheme) for impact in impacts.values()]
     count = cases.prepared_rows(max(sheet.steps for sheet in computed), rows)
     if case is None:
         from replication.audit.audit import audit
@@ -114,13 +114,13 @@ def build(
 
 
 def findings_of(record: Record, scheme: str, ledger: Ledger) -> Findings:
-    """What the audit tells the workbook, with the verdicts under the workbook's scheme."""
-    usual = in_words(Convention(centered=scheme == "centered"))
+    """Return what the workbook shows of the audit, with the verdicts under the given scheme."""
+    convention = in_words(Convention(centered=scheme == "centered"))
     verdicts, explanations = {}, {}
     for claim in record.claims:
         verdicts[claim.id], explanations[claim.id] = claim.verdict, claim.explanation
         for judged in claim.otherwise:
-            if all(getattr(judged, key) == word for key, word in usual.items()):
+            if all(getattr(judged, key) == word for key, word in convention.items()):
                 verdicts[claim.id] = judged.verdict
         if scheme != "published" and ledger.claims[claim.id].by_scheme:
             explanations[claim.id] = f"With the published scheme: {claim.explanation}"
@@ -136,26 +136,26 @@ def findings_of(record: Record, scheme: str, ledger: Ledger) -> Findings:
 
 
 def _si(typed: float, unit: str) -> float:
-    """The number typed into a cell, in SI units, rounded once."""
+    """Convert a typed number to SI units with a single rounding, as the cell in use does."""
     factor = to_si(unit)
     return typed * float(factor) if factor >= 1 else typed / float(1 / factor)
 
 
 def _typed(si: float, unit: str) -> float:
-    """The number to type so that the cell holds this SI value, or the nearest that it can hold."""
+    """Return the number to type so that the cell in use holds an SI value, or the nearest to it."""
     nearest = float(Fraction(si) / to_si(unit))
-    around = nearest, math.nextafter(nearest, math.inf), math.nextafter(nearest, -math.inf)
-    return next((typed for typed in around if _si(typed, unit) == si), nearest)
+    candidates = nearest, math.nextafter(nearest, math.inf), math.nextafter(nearest, -math.inf)
+    return next((typed for typed in candidates if _si(typed, unit) == si), nearest)
 
 
 def _typed_inputs(
     blocks: Mapping[str, Sequence[Input]], impacts: Mapping[str, Impact], ledger: Ledger
 ) -> dict[Input, float]:
-    """The number to type into each input's cell. Raises ValueError outside of its limits."""
+    """Return the number to type into each input's cell. Raises ValueError outside of its limits."""
     typed = {}
     for entry in chain.from_iterable(blocks.values()):
         if entry.attribute:
-            # The name of a beta tells the case.
+            # The name of a beta ends with its case; all other inputs are the same in all cases.
             case = impacts.get(entry.name.rpartition("_")[2]) or next(iter(impacts.values()))
             number = _typed(getattr(case, entry.attribute), entry.unit)
         else:
@@ -169,11 +169,12 @@ def _typed_inputs(
     return typed
 
 
-def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
-    """What the plan must know of a case's sheet, apart from its length."""
+def _case_sheet(slug: str, impact: Impact, scheme: str) -> CaseSheet:
+    """Return the sheet of a case, whose length is not known yet."""
     beta, name, label = impact.beta, "Sheet", MESSAGES["as_given"]
     if beta is not None:
-        # As spreadsheet programs round, the decimal that is shown, and join a number to a text.
+        # Spreadsheet programs round the decimal that they show, half away from zero, and write a
+        # number that they join to a text with 15 digits.
         rounded = Decimal(repr(beta)).quantize(Decimal("1e-6"), ROUND_HALF_UP, Context(MAX_PREC))
         name, label = f"Sheet beta {beta:.4g}", f"β = {float(rounded):.15g}"
     return CaseSheet(
@@ -187,20 +188,20 @@ def _page(slug: str, impact: Impact, scheme: str) -> CaseSheet:
     )
 
 
-# The values, sheet by sheet, as trees of dicts: the names of its branches, joined, are the key of a
-# value; a list is a column, and None has no cell
+# The values, sheet by sheet. They are trees: the names of its branches, joined by dots, are the key
+# of a value. A list is a column of cells, and None stands for no cell.
 
 Tree = dict[str, Any]
 Runs = Sequence[tuple[CaseSheet, Sheet]]
-"""The sheet of each case in the plan, and its rows."""
+"""The sheet of each case in the plan, with the run that it shows."""
 
 
 def _values(
     ledger: Ledger, runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
 ) -> Tree:
-    """Every value but the live verdicts; `si`: the inputs by name, in SI."""
+    """Return every value but the live verdicts; `si` has the inputs in SI units, by name."""
     inputs = _inputs(ledger, runs, typed, si)
-    pages = {page.part: _sheet(page, sheet, si) for page, sheet in runs}
+    pages = {page.part: _case_values(page, sheet, si) for page, sheet in runs}
     for page in (page for page, _ in runs if page.coarse):
         values, fine = pages[page.part], pages[page.slug]["depth_um"]
         over = values["depth_um"] / fine if fine else NOT_COMPUTED
@@ -219,7 +220,7 @@ def _values(
             **{part: {key: page[key] for key in results} for part, page in pages.items()},
         },
         "table": {name: table[name] for name in cases.ABOVE_TABLE} | {"row": rows},
-        "figure_3": {page.slug: _curve(page, sheet) for page, sheet in runs},
+        "figure_3": {page.slug: _figure_3_curve(page, sheet) for page, sheet in runs},
         "figure_5": _figure_5(last.impact, si),
         "convergence": _convergence(runs, inputs),
         "frank_zook": _frank_zook(last.impact, si),
@@ -233,7 +234,6 @@ def _inputs(
     ledger: Ledger, runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
 ) -> Tree:
     first = runs[0][1].impact
-    changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
     constants = {
         "pi_": math.pi,
         "ksi_Pa": to_si("ksi"),
@@ -241,35 +241,38 @@ def _inputs(
         "excess_most": DIGITS,
         "off_stop_most": OFF_STOP,
     }
-    values: Tree = constants | {
+    derived = {
+        "D_p": first.diameter,
+        "M_p": first.mass,
+        "half_step": first.step / 2 * 1e9,
+        "mean_radius": si["D_mean"] / 2 * 1e6,
+    }
+    resistances = {
+        f"R_t{page.input_suffix}": sheet.impact.target_resistance for page, sheet in runs
+    }
+    changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
+    values: Tree = {f"{name}.check": "" for name in (*constants, *derived, *resistances)}
+    values |= constants | {
         "from": "yours",
         "taken": "yours",
         "choice": "",
         "unusable": 0,
         "changed": len(changed),
         "message": MESSAGES["changed" if changed else "unchanged"],
-        "D_p": first.diameter,
-        "M_p": first.mass,
-        "half_step": first.step / 2 * 1e9,
-        "mean_radius": si["D_mean"] / 2 * 1e6,
+        **derived,
     }
-    for name, number in constants.items():
-        values[f"{name}.written"] = number
+    values |= {f"{name}.written": number for name, number in constants.items()}
     for entry, number in typed.items():
         name = entry.name
         unchanged = "as inferred" if name == "rho_t" else "the report’s"
         check = "yours" if name in changed else unchanged
         values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
-    for page, sheet in runs:
-        values[f"R_t{page.of}"] = sheet.impact.target_resistance
-    followed = [*constants, "D_p", "M_p", "half_step", "mean_radius"]
-    followed += [f"R_t{page.of}" for page, _ in runs]
-    return {f"{name}.check": "" for name in followed} | values
+    return values | resistances
 
 
-def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
+def _case_values(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     impact, final = sheet.impact, sheet.rows[-1]
-    trust, message = _state(sheet)
+    trust, message = _run_state(sheet)
     v, at_rest = impact.velocity, _without_steps(impact)
     at_stop = _without_steps(impact, to_stop=True)
     rest, stop = at_rest["normalized_depth"], at_stop["normalized_depth"]
@@ -280,7 +283,7 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
         **{name: getattr(sheet, name) for name in ("steps", "final_depth", "normalized_depth")},
         "label": page.label,
         "renamed": None if page.resistance_given else "",
-        "row": _columns(sheet, page.rows),
+        "row": _row_columns(sheet, page.rows),
         "message": message,
         "trust": trust,
         "stopped": 1,
@@ -299,13 +302,13 @@ def _sheet(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     }
 
 
-def _curve(page: CaseSheet, sheet: Sheet) -> Tree:
-    """A curve of Figure 3 in ns and µm; after the stop it holds the last row."""
+def _figure_3_curve(page: CaseSheet, sheet: Sheet) -> Tree:
+    """Return a curve of Figure 3 in ns and µm; after the stop, the last row is repeated."""
     rows = [sheet.rows[min(k, sheet.steps)] for k in range(page.rows + 1)]
     return {
         "time": [row.time * 1e9 for row in rows],
         "depth": [row.depth * 1e6 for row in rows],
-        "message": f"{page.label}: {_state(sheet)[1]}",
+        "message": f"{page.label}: {_run_state(sheet)[1]}",
     }
 
 
@@ -318,15 +321,12 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
 
 
 def _convergence(runs: Runs, inputs: Tree) -> Tree:
-    """Final depths at steps, each half of the one before, against the depth at rest, in um.
-
-    And the inputs that they were computed with.
-    """
+    """Return the ladder of time steps: final depths and their errors against the depth at rest."""
     of_runs = {name: inputs[name] for name in sheets.run_inputs([page for page, _ in runs])}
     values: Tree = {"message": MESSAGES["current"]}
     for page, sheet in runs:
         time_steps = ladder(sheet.impact.step, sheets.LEVELS)
-        rest = depth.final_depth(*sheet.impact.motion.values()) * 1e6
+        rest = depth.final_depth(**sheet.impact.motion) * 1e6
         levels = [run(replace(sheet.impact, step=step), sheet.scheme) for step in time_steps]
         depths = [level.final_depth * 1e6 for level in levels]
         errors = [reached - rest for reached in depths]
@@ -341,7 +341,7 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
             "error": errors,
             "size": list(map(abs, errors)),
             "order": [None, *(sheets.NO_ORDER if order is None else order for order in orders)],
-            "state": [_state(level)[1] for level in levels],
+            "state": [_run_state(level)[1] for level in levels],
         }
     return values | {"run": of_runs, "in_use": of_runs, "same": dict.fromkeys(of_runs, 1)}
 
@@ -426,7 +426,7 @@ def _resistance(runs: Runs, si: Mapping[str, float]) -> Tree:
 
 
 def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
-    """The values of a tree by key.
+    """Yield the values of a tree with their keys.
 
     >>> dict(_keyed({"low": {"steps": 85, "time": [0.0, 2e-10]}}))
     {'low.steps': 85.0, 'low.time[0]': 0.0, 'low.time[1]': 2e-10}
@@ -444,36 +444,40 @@ def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
 def live_verdicts(
     ledger: Ledger, plan: WorkbookPlan, values: Mapping[str, Value], findings: Findings
 ) -> dict[str, Value]:
-    """What the live verdicts and the check of Table A-1 say of the doubles in the claims' cells."""
+    """Return the live verdicts, by key, on the values of the cells that compute claims.
+
+    With them come the sheets that show them: the check of Table A-1, the counts, and the results
+    that `Overview` repeats.
+    """
     audit: Tree = {}
     table: Tree = {}
     for claim in ledger.claims.values():
         if not claim.workbook:
             continue
-        value = values[plan.cell(place_of(claim.workbook)).key]
-        audit[claim.id] = {"computed": value, "verdict": _verdict(value, claim.interval())}
+        value = values[plan.cells[place_of(claim.workbook)].key]
+        audit[claim.id] = {"computed": value, "verdict": _live_verdict(value, claim.interval())}
         if claim.place.cell and claim.printed:
             difference = _difference(value, claim.printed, exact=claim.is_exact)
             table[claim.place.cell] = audit[claim.id] | {"difference": difference}
     verdicts = [judged["verdict"] for judged in audit.values()]
-    counts = {key: verdicts.count(verdict) for verdict, key in sheets.KINDS}
-    overview = {f"audit_{key}": count for key, count in counts.items()}
+    counts = {ending: verdicts.count(verdict) for verdict, ending in sheets.KINDS}
+    overview = {f"audit_{ending}": count for ending, count in counts.items()}
     for name in (*findings.failing, *findings.differing):
         if name in audit:
             overview[name] = audit[name]["computed"]
-    tree = {"audit": audit | counts, "overview": overview, "table_check": table}
-    return dict(_keyed(tree))
+    return dict(_keyed({"audit": audit | counts, "overview": overview, "table_check": table}))
 
 
 def _without_steps(impact: Impact, to_stop: bool = False) -> dict[str, float]:
-    """The closed form's terms and the depth at rest, or at the stop velocity: u = 0 or v_stop.
+    """Return the depth at the velocity u without time steps, and the terms of its equation.
 
-    p = rho_t (V^2 - u^2) / (2 R_t + rho_t u^2) [1] and c = (4 rho_p / 3 rho_t) ln(1 + p) [1].
+    u is 0 (at rest), or with `to_stop` the stop velocity. `pressure` is
+    p = rho_t (V^2 - u^2) / (2 R_t + rho_t u^2) [1], and c = (4 rho_p / 3 rho_t) ln(1 + p) [1].
     """
     v, radius, particle, target, r_t = impact.motion.values()
     u, reached = 0.0, depth.normalized_depth(v, particle, target, r_t)
     if to_stop:
-        u = min(impact.stop_velocity, v)  # an impact below it goes nowhere
+        u = min(impact.stop_velocity, v)  # an impact below the stop velocity has depth 0
         reached = depth.depth_at_velocity(u, **impact.motion) / radius
     pressure = target * (v - u) * (v + u) / (2 * r_t + target * u * u)
     return {
@@ -484,49 +488,55 @@ def _without_steps(impact: Impact, to_stop: bool = False) -> dict[str, float]:
     }
 
 
-def _state(sheet: Sheet) -> tuple[int, str]:
-    """How far a run can be trusted (2; 1: all but its last velocity; 0: not), and what to say."""
+def _run_state(sheet: Sheet) -> tuple[int, str]:
+    """Return how far a run can be trusted, and the message that says so.
+
+    2: it is sound; 1: only its last velocity is not; 0: it must not be used.
+    """
     kinds = doubts_about(sheet).keys()
-    trust = 0 if kinds - {"reversed", "short"} else 1 if "reversed" in kinds else 2
-    doubtful = "coarse" if "coarse" in kinds else "doubtful"
-    doubtful = {0: "no_steps", 1: "one_step"}.get(sheet.steps, doubtful)
-    message = (doubtful, "reversed", "early" if "short" in kinds else "complete")[trust]
-    return trust, MESSAGES[message]
+    if not kinds - {"reversed", "short"}:
+        if "reversed" in kinds:
+            return 1, MESSAGES["reversed"]
+        return 2, MESSAGES["early" if "short" in kinds else "complete"]
+    doubt = "coarse" if "coarse" in kinds else "doubtful"
+    return 0, MESSAGES[{0: "no_steps", 1: "one_step"}.get(sheet.steps, doubt)]
 
 
-def _columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
-    """The cells of rows 0 to `count` by column; blank ("") below the stop."""
+def _row_columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
+    """Return the cells of rows 0 to `count`, by column; below the stop they are blank ("")."""
     impact = sheet.impact
     columns: dict[str, Any] = dict(zip(Row._fields, zip(*sheet.rows, strict=True), strict=True))
     columns["index"] = range(len(sheet.rows))
     columns["depth_um"] = (x * 1e6 for x in columns["depth"])
     if sheet.scheme == "centered":
         materials = impact.radius, impact.mass, impact.target_density, impact.target_resistance
-        begins = zip(columns["depth"][1:], columns["velocity_initial"][1:], strict=True)
-        middle = (v - deceleration(x, v, *materials) * (impact.step / 2) for x, v in begins)
-        columns["velocity_middle"] = (None, *middle)
+        columns["velocity_middle"] = [None]  # row 0 has none
+        for row in sheet.rows[1:]:
+            x, v = row.depth, row.velocity_initial
+            middle = v - deceleration(x, v, *materials) * (impact.step / 2)
+            columns["velocity_middle"].append(middle)
     blank = [""] * (count - sheet.steps)
     return {name: [*column, *blank] for name, column in columns.items()}
 
 
-def _verdict(value: Value, interval: Interval) -> str:
-    """Whether a double lies between the interval's ends, themselves taken as doubles."""
+def _live_verdict(value: Value, interval: Interval) -> str:
+    """Return the live verdict on a double; the ends of the interval are taken as doubles, too."""
     if not isinstance(value, float):
         return NOT_COMPUTED
     if interval.is_point:
-        # Exact text, such as 2/3, which no double is: to nine digits.
+        # To nine digits, since no double is exactly 2/3.
         (exact, _) = interval.ends
         inside = abs(Fraction(value) - exact) * 10**9 <= abs(exact)
     else:
         ends = interval.lower, interval.upper
         low, high = (None if end is None else Fraction(float(end)) for end in ends)
-        around = Interval(low, high, interval.lower_closed, interval.upper_closed)
-        inside = around.contains(Fraction(value))
+        in_doubles = Interval(low, high, interval.lower_closed, interval.upper_closed)
+        inside = in_doubles.contains(Fraction(value))
     return sheets.AS_PRINTED if inside else sheets.OTHERWISE
 
 
 def _difference(value: Value, printed: Printed, *, exact: bool) -> Value:
-    """A number of Table A-1 minus the printed one, in units of the last digit unless exact."""
+    """Return computed minus printed; in units of the last printed digit unless that is exact."""
     if not isinstance(value, float):
         return "–"  # the table has fewer rows
     difference = value - float(printed.value)

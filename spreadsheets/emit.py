@@ -1,7 +1,7 @@
-"""A plan and its values -> one .xlsx file: live formulas, each stored with its computed value.
+"""Write a plan and its values as an .xlsx file: live formulas, each stored with its value.
 
-The same plan and values give the same bytes wherever and whenever they are written. The file
-carries the SHA-256 of its parts, so that one that somebody changed is never taken for our own.
+The same plan and values give the same bytes on every machine and on every day. The file contains
+the SHA-256 digest of its parts, so that a file that somebody changed is not taken for our own.
 """
 
 import math
@@ -16,14 +16,14 @@ from pathlib import Path
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import Cell, SheetPlan, Value, WorkbookPlan, tables
+from spreadsheets.plan import TABLES, Cell, SheetPlan, Value, WorkbookPlan
 from spreadsheets.safely import UNREADABLE, check_target
 
 _ARIAL = {"font_name": "Arial", "font_size": 10}
 
 
 def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
-    """What every cell of the workbook shows, by sheet and address, texts included.
+    """Return what every cell of the workbook shows, texts included, by sheet and address.
 
     Raises ValueError unless `values` has exactly the keys of the plan and every number is finite.
     """
@@ -33,24 +33,22 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
     ):
         if keys:
             raise ValueError(f"{len(keys)} {problem} value(s), the first is {min(keys)!r}")
-    shown: dict[str, dict[str, Value]] = {}
-    for sheet in plan.sheets:
-        of_sheet = shown[sheet.name] = {}
-        for address, cell in sheet.cells.items():
-            number = cell.text if cell.number is None else cell.number
-            value = values[cell.key] if cell.key else number
-            if isinstance(value, float) and not math.isfinite(value):
-                where = f"{cell.key} ({sheet.name}!{address})"
-                raise ValueError(f"{where} is {value}: not a number a cell can hold")
-            if cell.key or value != "":
-                of_sheet[address] = value
+    shown: dict[str, dict[str, Value]] = {sheet.name: {} for sheet in plan.sheets}
+    for (sheet, address), cell in plan.cells.items():
+        constant = cell.text if cell.number is None else cell.number
+        value = values[cell.key] if cell.key else constant
+        if isinstance(value, float) and not math.isfinite(value):
+            where = f"{cell.key} ({sheet}!{address})"
+            raise ValueError(f"{where} is {value}: not a number a cell can hold")
+        if cell.key or value != "":
+            shown[sheet][address] = value
     return shown
 
 
 def check(path: Path, *, force: bool = False) -> None:
-    """Raise OSError where nothing can be written, or a file stands that is not `is_own`.
+    """Raise OSError unless a workbook can be written to `path`.
 
-    `force` admits any file.
+    An existing file may be replaced only if it `is_own`, or with `force`.
     """
     target = check_target(path)
     if target.exists() and not force and not is_own(target):
@@ -61,22 +59,23 @@ def check(path: Path, *, force: bool = False) -> None:
 _SEAL, _SEALED, _UNSEALED = "coldspray-sha256", "docProps/custom.xml", "0" * 64
 
 _CORRECTIONS = (
-    # XlsxWriter claims to be Excel, and gives dates, of which none is true.
+    # XlsxWriter names Excel as the program, and gives dates, which would differ in every run.
     ("docProps/app.xml", rb">Microsoft Excel<", rb">coldspray<"),
     ("docProps/app.xml", rb"<AppVersion>.*?</AppVersion>", rb""),
     ("docProps/core.xml", rb"<dcterms:(created|modified).*?</dcterms:\1>", rb""),
-    # Where nothing is said, LibreOffice draws a smooth curve through the points.
+    # Unless told otherwise, LibreOffice draws a smooth curve through the points.
     ("xl/charts/", rb"</c:yVal>", rb'</c:yVal><c:smooth val="0"/>'),
-    # XlsxWriter stores the value "" of a formula without the type of a text.
+    # XlsxWriter stores the value "" of a formula without the type that marks a text.
     ("xl/worksheets/", rb'(<c r="\w+" s="\d+")(><f>[^<]*</f><v></v>)', rb'\1 t="str"\2'),
 )
-"""What is changed in the parts of the file: the start of a part's name, a pattern, and a text."""
+"""Changes to what XlsxWriter writes: start of a part's name, pattern and replacement."""
 
 
 def is_own(path: Path) -> bool:
-    """Whether a file is, byte for byte, a workbook that `to_bytes` made here.
+    """Whether a file is, byte for byte, a workbook that `to_bytes` made.
 
-    Its parts, packed again, must give it; what another version of zlib packed counts as changed.
+    Compressing its parts again must give the same file. A file that another version of zlib
+    compressed therefore counts as changed.
     """
     content = path.read_bytes()
     try:
@@ -92,7 +91,7 @@ def _parts(content: bytes) -> dict[str, bytes]:
 
 
 def _sealed(parts: dict[str, bytes]) -> bytes:
-    """Zip these parts without time stamps, with their digest as the seal."""
+    """Zip the parts, without time stamps, and store their digest as the seal."""
     parts[_SEALED] = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
     digest = sha256(b"".join((*map(str.encode, parts), *parts.values()))).hexdigest()
     parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), digest.encode())
@@ -100,18 +99,18 @@ def _sealed(parts: dict[str, bytes]) -> bytes:
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, part in parts.items():
             info = zipfile.ZipInfo(name)
-            info.create_system = 3  # the same on every system
+            info.create_system = 3  # Unix, whatever the system is
             archive.writestr(info, part, zipfile.ZIP_DEFLATED)
     return buffer.getvalue()
 
 
 def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
-    """The bytes of the .xlsx file. Raises as `cell_values` does."""
+    """Return the bytes of the .xlsx file. Raises ValueError as `cell_values` does."""
     import xlsxwriter
 
     shown = cell_values(plan, values)
-    # The font of all cells, since column widths are counted in digits of the default one; a copy,
-    # since XlsxWriter writes into it.
+    # Arial must be the default font, too, since column widths are counted in its digits. It is
+    # copied because XlsxWriter changes the dict.
     options = {"in_memory": True, "default_format_properties": dict(_ARIAL)}
     file = BytesIO()
     book = xlsxwriter.Workbook(file, options)
@@ -119,7 +118,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     @cache
     def style(name: str, number_format: str, wrap: bool) -> Any:
         name, sample, _ = name.partition(" sample")
-        look = {**_ARIAL, "font_color": "#000000", **tables()["styles"][name], "text_wrap": wrap}
+        look = {**_ARIAL, "font_color": "#000000", **TABLES["styles"][name], "text_wrap": wrap}
         look |= {"align": "center"} if sample else {}
         return book.add_format({**look, "num_format": number_format, "valign": "vcenter"})
 
@@ -127,13 +126,14 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     book.set_custom_property(_SEAL, _UNSEALED)
     for sheet in plan.sheets:
         page = book.add_worksheet(sheet.name)
-        # By itself, it searches each formula for functions newer than Excel 2010: half of the time.
+        # XlsxWriter spends half of its time searching formulas for functions newer than Excel 2010.
+        # The plan has none, so only the "=" is removed.
         page._prepare_formula = lambda formula: formula[1:]
         _set_up(page, sheet)
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.shown, cell.wrap)
             _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
-            # Widths are counted in digits; most letters are narrower.
+            # A width is counted in digits, and most letters are narrower than a digit.
             if cell.wrap and len(cell.text) > 1.2 * sheet.widths[address[0]]:
                 page.set_row(int(address[1:]) - 1, 30)
             if cell.name:
@@ -141,23 +141,26 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
                 if book.define_name(cell.name, named) == -1:
                     raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
         for rule in sheet.rules:
-            # A format for a rule has the properties that it changes, and no font or number format.
-            look = book.add_format(tables()["rules"][rule.style])
+            # The format of a rule names only what it changes, so neither font nor number format.
+            look = book.add_format(TABLES["rules"][rule.style])
             options = {"type": "formula", "criteria": rule.formula, "format": look}
             page.conditional_format(rule.cells, options)
         if sheet.curves:
             _draw(book, page, sheet, sheet.description(values))
     book.close()
     parts = _parts(file.getvalue())
-    for start, pattern, words in _CORRECTIONS:
-        parts |= {
-            name: re.sub(pattern, words, parts[name]) for name in parts if name.startswith(start)
-        }
-    return _sealed(parts)
+    return _sealed({name: _corrected(name, part) for name, part in parts.items()})
+
+
+def _corrected(name: str, part: bytes) -> bytes:
+    for start, pattern, replacement in _CORRECTIONS:
+        if name.startswith(start):
+            part = re.sub(pattern, replacement, part)
+    return part
 
 
 def _set_up(page: Any, sheet: SheetPlan) -> None:
-    """Scrolling, column widths and print set-up."""
+    """Set how a sheet scrolls and prints, and its column widths."""
     page.hide_gridlines(2)
     if sheet.headed:
         scrolling, first, last = sheet.headed
@@ -177,14 +180,14 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
         page.set_h_pagebreaks([sheet.page_break])
     if sheet.filtered:
         page.autofilter(sheet.filtered)
-    # Texts that the report prints are texts, and formulas differ from their neighbors by design.
-    everywhere = "A1:XFD1048576"
+    # Excel would mark printed numbers, which are texts, and formulas that differ by design from
+    # their neighbors.
     kinds = ("number_stored_as_text", "formula_differs", "formula_range")
-    page.ignore_errors(dict.fromkeys(kinds, everywhere))
+    page.ignore_errors(dict.fromkeys(kinds, "A1:XFD1048576"))
 
 
 def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
-    """A formula, a text, a number, or an input, with what may be typed into it."""
+    """Write one cell; for an input, also what may be typed into it."""
     if cell.formula:
         page.write_formula(address, cell.formula, style, value)
     elif cell.link:
@@ -195,7 +198,7 @@ def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -
         write(address, value, style)
     else:
         page.write_number(address, _Exact(value), style)
-    # What a spreadsheet program asks of a typed input, and says before and after.
+    # A spreadsheet program shows these words before an input is typed, and if it is refused.
     if cell.choices:
         page.data_validation(address, {"validate": "list", "source": list(cell.choices)})
     elif cell.limits:
@@ -207,12 +210,12 @@ def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -
 
 
 def _absolute(sheet: str, cells: str) -> str:
-    """Cells as a name or a chart refers to them: 'Figure 5'!$B$5:$B$25."""
+    """Return the absolute reference that a name or chart needs: 'Figure 5'!$B$5:$B$25."""
     return f"'{sheet}'!" + re.sub(r"([A-Z]+)(\d+)", r"$\1$\2", cells)
 
 
 class _Exact(float):
-    """A number that XlsxWriter stores with all its digits; by itself, it writes 16 of them."""
+    """A number that XlsxWriter writes with all its digits; of a plain float it writes only 16."""
 
     def __format__(self, _: str) -> str:
         return float.__repr__(self)
@@ -229,7 +232,7 @@ def _draw(book: Any, page: Any, sheet: SheetPlan, description: str) -> None:
     chart = sheet.entry["chart"]
     logarithmic = chart.get("logarithmic", False)
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
-    for curve, look in zip(sheet.curves, tables()["curves"], strict=False):
+    for curve, look in zip(sheet.curves, TABLES["curves"], strict=False):
         settings = {
             "name": f"={_absolute(*curve.name)}",
             "categories": f"={_absolute(sheet.name, curve.x)}",
@@ -238,7 +241,7 @@ def _draw(book: Any, page: Any, sheet: SheetPlan, description: str) -> None:
         }
         first, last = map(int, re.findall(r"\d+", curve.x))
         if logarithmic or last - first < 50:
-            # Few points: show where they are.
+            # There are few points: mark each of them.
             fill = {"color": look["color"]}
             settings["marker"] = {"type": look["marker"], "size": 6, "fill": fill, "border": fill}
         drawn.add_series(settings)

@@ -1,9 +1,9 @@
-"""Real spreadsheet engines, all behind one small interface.
+"""Real spreadsheet engines behind one small interface.
 
     IronCalc().recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
 
-An engine computes every formula of a workbook again and gives the `Values`. Two engines come with
-pip, two from the system. Their libraries are imported only when an engine is used.
+An engine recalculates every formula of a workbook and returns the `Values`. Two engines are
+installed with pip, two with the system. Their libraries are imported only when an engine is used.
 """
 
 import json
@@ -31,20 +31,20 @@ from spreadsheets.plan import Value
 Values = dict[str, dict[str, Value]]
 """Worksheet name -> address such as "B7" -> value.
 
-Absent are blank cells, formulas that give the empty string, and sheets without values. A number or
-a date (its serial number) is a float; a boolean a bool, of LibreOffice 1.0 or 0.0; an error the
-text that stands for it, such as "#VALUE!", or "Err:502" of LibreOffice.
+Blank cells, formulas that give the empty string, and sheets without values are left out. A number
+is a float, as is a date (its serial number). A boolean is a bool, but 1.0 or 0.0 from LibreOffice.
+An error is its text, such as "#VALUE!", or "Err:502" from LibreOffice.
 """
 
 Cell = tuple[str, str, Value | None]
-"""Worksheet name, address and value; None where the cell holds nothing."""
+"""Worksheet name, address and value; None for a blank cell."""
 
 TIME_LIMIT_S = 120
-"""How long a program may take for one workbook."""
+"""How many seconds a program may take for one workbook."""
 
 
 class EngineError(Exception):
-    """An engine is missing, failed, or could not read the workbook. Its message is one line."""
+    """An engine is missing, fails, or cannot read the workbook. The message is one line."""
 
     def __init__(self, engine: str, reason: str) -> None:
         self.reason = " ".join(reason.split())
@@ -56,34 +56,36 @@ class Engine(ABC):
 
     name: str
     long_doubles = False
-    """Whether it computes in 80-bit long doubles, so that its last digits are others by design."""
+    """Whether it computes in 80-bit long doubles, so that its last digits differ from ours."""
 
     @abstractmethod
     def missing(self) -> str | None:
-        """None when the engine can be used, or else a sentence on what to install."""
+        """Return None if the engine can be used, else a sentence that says what to install."""
 
     @abstractmethod
     def version(self) -> str:
-        """The version of the program that would be used; not asked for when it is missing."""
+        """Return the version of the engine; called only if it is not missing."""
 
     def _cells(self, path: Path) -> Iterator[Cell]:
-        """The cells of a workbook, recalculated; blank ones included or not."""
-        raise NotImplementedError  # of an engine that has the other one
+        """Yield the recalculated cells of a workbook; blank cells may be left out.
 
-    def _cells_of_each(self, paths: Sequence[Path]) -> Iterator[Iterator[Cell]]:
+        An engine that takes several workbooks at once overrides `_cells_of_many` instead.
+        """
+        raise NotImplementedError
+
+    def _cells_of_many(self, paths: Sequence[Path]) -> Iterator[Iterator[Cell]]:
         return map(self._cells, paths)
 
     def recalculate(self, path: Path) -> Values:
-        """Compute every formula of an .xlsx file again; the file itself stays as it is."""
-        (recalculated,) = self.recalculate_many([path])
-        return recalculated
+        """Recalculate every formula of an .xlsx file; the file itself is not changed."""
+        return self.recalculate_many([path])[0]
 
     def recalculate_many(self, paths: Sequence[Path]) -> list[Values]:
-        """Compute every formula of several .xlsx files again, in their order."""
+        """Recalculate every formula of several .xlsx files; return the values of each, in order."""
         if (reason := self.missing()) is not None:
             raise EngineError(self.name, reason)
         recalculated: list[Values] = []
-        for cells in self._cells_of_each(paths):
+        for cells in self._cells_of_many(paths):
             recalculated.append({})
             for sheet, place, value in cells:
                 if value is not None and value != "":
@@ -91,15 +93,15 @@ class Engine(ABC):
         return recalculated
 
     def _run(self, command: list[str], workbooks: int = 1) -> str:
-        """The output of a program that recalculates so many workbooks."""
+        """Return the output of a program; the time limit grows with the number of workbooks."""
         limit = TIME_LIMIT_S * workbooks
         try:
-            status, output, complaint = run_program(command, limit)
+            status, output, errors = run_program(command, limit)
         except subprocess.TimeoutExpired as error:
             raise EngineError(self.name, f"no answer within {limit} s") from error
         if status != 0:
-            # The last line says why; those before it are the program's own chatter.
-            raise EngineError(self.name, (complaint.strip() or "no reason given").splitlines()[-1])
+            # The last line gives the reason; the lines before it are warnings and progress.
+            raise EngineError(self.name, (errors.strip() or "no reason given").splitlines()[-1])
         return output
 
     def _version_of(self, program: str) -> str:
@@ -108,17 +110,17 @@ class Engine(ABC):
 
 
 def address(row: int, column: int) -> str:
-    """The cell in that row and column, both counted from 1: (7, 2) is B7."""
+    """Return the address of a cell; row and column count from 1, so that (7, 2) is B7."""
     from openpyxl.utils import get_column_letter
 
     return f"{get_column_letter(column)}{row}"
 
 
-# From pip
+# Engines that pip installs
 
 
 class IronCalc(Engine):
-    """Exact doubles, booleans and error texts, by the unformatted getter; the others round."""
+    """IronCalc; its unformatted getter gives exact doubles, while the formatted ones round."""
 
     name = "ironcalc"
 
@@ -143,7 +145,7 @@ class IronCalc(Engine):
 
 
 class Formualizer(IronCalc):
-    """Exact doubles and booleans; it cannot be asked which cells there are, so IronCalc is."""
+    """Formualizer; it cannot list the cells of a workbook, so IronCalc lists them."""
 
     name = "formualizer"
 
@@ -153,27 +155,29 @@ class Formualizer(IronCalc):
 
         try:
             workbook = formualizer.load_workbook(str(path))
-            workbook.set_temporal_egress("serial")  # dates as numbers, like the other engines
+            workbook.set_temporal_egress("serial")  # dates as numbers, as in other engines
             workbook.evaluate_all()
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
-        spelled = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
+        named = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
         for sheet, place, _ in super()._cells(path):
             value = workbook.get_value(sheet, *coordinate_to_tuple(place))
             if isinstance(value, dict):  # an error
-                value = spelled.get(value["kind"], f"#{value['kind'].upper()}!")
+                value = named.get(value["kind"], f"#{value['kind'].upper()}!")
             yield sheet, place, value
 
 
-# From the system
+# Engines that the system installs
 
 
 def run_program(
     command: list[str], seconds: float, before: Callable[[], None] | None = None
 ) -> tuple[int, str, str]:
-    """Run a command in a group of its own; give its status, output and complaint.
+    """Run a command; return its exit status, standard output and standard error.
 
-    None of its processes is left behind. before: called in the new process. Raises TimeoutExpired.
+    The command runs in a process group of its own, of which nothing is left running at the end.
+    before: is called in the new process, before the command (not on Windows). Raises
+    TimeoutExpired after so many seconds.
     """
     posix, pipe = os.name == "posix", subprocess.PIPE
     with subprocess.Popen(
@@ -181,19 +185,20 @@ def run_program(
         preexec_fn=before if posix else None,
     ) as process:  # fmt: skip
         try:
-            output, complaint = process.communicate(timeout=seconds)
+            output, errors = process.communicate(timeout=seconds)
         finally:
-            with suppress(ProcessLookupError):  # the good case: nothing is left
+            with suppress(ProcessLookupError):  # as usual, no process of the group is left
                 os.killpg(process.pid, signal.SIGKILL) if posix else process.kill()
-            process.communicate()  # its pipes end with the last process that holds them
-    return process.returncode, output, complaint
+            process.communicate()  # the pipes close with the last process that holds them
+    return process.returncode, output, errors
 
 
 class LibreOffice(Engine):
-    """LibreOffice through UNO, its programming interface; what it saves is rounded to 15 digits.
+    """LibreOffice, driven through UNO, its programming interface.
 
-    The UNO bindings belong to one certain Python, seldom this one: `uno_script.py` runs in the
-    first that can import them. An office starts in a second or two; several workbooks share it.
+    A file that LibreOffice saves would have only 15 digits. The UNO bindings belong to one certain
+    Python, seldom the one that runs this program: `uno_script.py` runs in the first Python that can
+    import them. LibreOffice starts in a second or two, once for several workbooks.
     """
 
     name = "libreoffice"
@@ -208,10 +213,10 @@ class LibreOffice(Engine):
     def version(self) -> str:
         return self._version_of(str(office()))
 
-    def _cells_of_each(self, paths: Sequence[Path]) -> Iterator[Iterator[Cell]]:
+    def _cells_of_many(self, paths: Sequence[Path]) -> Iterator[Iterator[Cell]]:
         soffice, script = str(office()), str(Path(__file__).with_name("uno_script.py"))
         with TemporaryDirectory(prefix="coldspray-") as folder:
-            # Copies, since LibreOffice puts a lock file beside what it opens.
+            # LibreOffice opens copies, since it puts a lock file beside each file that it opens.
             copies = [
                 str(shutil.copyfile(path, Path(folder, f"workbook{number}.xlsx")))
                 for number, path in enumerate(paths)
@@ -228,7 +233,7 @@ class LibreOffice(Engine):
 
 
 def office() -> str | None:
-    """The path of LibreOffice's program, if it is installed."""
+    """Return the path of the LibreOffice program, or None if it is not installed."""
     return shutil.which("soffice") or shutil.which("libreoffice")
 
 
@@ -244,10 +249,10 @@ def _uno_python(soffice: str) -> str | None:
 
 
 class Gnumeric(Engine):
-    """Gnumeric through its converter `ssconvert`.
+    """Gnumeric, driven through its converter `ssconvert`.
 
-    It writes the recalculated workbook as .xlsx, with all digits. Debian's computes in long
-    doubles, which are rounded to doubles only on reading.
+    It writes the recalculated workbook as .xlsx, with all digits. Debian's Gnumeric computes in
+    long doubles, which are rounded to doubles only when that file is read.
     """
 
     name = "gnumeric"
@@ -266,18 +271,18 @@ class Gnumeric(Engine):
 
         with TemporaryDirectory(prefix="coldspray-") as folder:
             converted = Path(folder, "converted.xlsx")
-            # Without --recalc stored values would come back; without the importer's name, it would
-            # take any text file for a table.
+            # Without --recalc it would keep the stored values; without the importer's name it would
+            # import any text file as a table.
             formats = (f"--{way}port-type=Gnumeric_Excel:xlsx" for way in ("im", "ex"))
             self._run(["ssconvert", "--recalc", *formats, str(path.resolve()), str(converted)])
-            with warnings.catch_warnings(action="ignore"):  # Gnumeric names no default style
+            with warnings.catch_warnings(action="ignore"):  # about the missing default style
                 book = load_workbook(converted, data_only=True)
         for sheet in book.worksheets:
             for cell in chain.from_iterable(sheet.iter_rows()):
                 value: Any = cell.value
                 if not isinstance(value, str | bool | None):
                     number = float(value if isinstance(value, float | int) else to_excel(value))  # type: ignore[no-untyped-call]
-                    # One beyond all doubles is the error that the other engines give.
+                    # A long double beyond the range of doubles: other engines give this error.
                     value = number if math.isfinite(number) else "#NUM!"
                 yield sheet.title, cell.coordinate, value
 

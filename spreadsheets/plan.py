@@ -1,16 +1,15 @@
-"""What a workbook holds, cell by cell, before any file exists.
+"""The plan of a workbook: what every cell holds, before any file exists.
 
 A cell holds a text, a number that is known when the workbook is planned, or something whose value
-is supplied later under the cell's *key* (`high.row.depth[17]`): an input, or a formula. Whoever
-supplies the values never sees the formulas, so that the two can be compared.
+is supplied later under the *key* of the cell (`high.row.depth[17]`): an input, or the result of a
+formula. Whoever supplies the values never sees the formulas, so that the two can be compared.
 """
 
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping, Sequence, Set
 from dataclasses import dataclass, field
-from functools import cache, cached_property
-from itertools import product
+from functools import cached_property
 from pathlib import Path
 from string import ascii_uppercase
 from textwrap import wrap
@@ -20,29 +19,30 @@ from reference.ledger import Ledger
 from reference.units import written
 
 NOT_COMPUTED = "not computed"
-"""What stands in place of a value that hangs on an input that cannot be used."""
+"""What a formula gives if it depends on an input that cannot be used."""
 
 HOME = "Overview"
-"""The first sheet, to which a link leads back from every other."""
+"""The first sheet; every other sheet has a link back to it."""
 
 FIRST_ROW = 10
-"""Row 0 of the scheme, the impact itself, stands in this row of the sheet of a case."""
+"""The row of a case's sheet that holds row 0 of the scheme, the impact itself."""
 
 Value = float | str | bool
-"""What a cell shows: numbers are float; the empty string is what a formula leaves for blank."""
+"""What a cell shows. A number is a float; a formula that leaves its cell blank gives ""."""
 
 Place = tuple[str, str]
-"""Sheet name and address: ("Crater", "C5"). No sheet has more columns than there are letters."""
+"""Sheet name and address: ("Crater", "C5"). A column is a single letter on every sheet."""
 
 
 class Cell(NamedTuple):
     """One cell: a `text`, a `number`, an input (a `key` alone), or a `formula` with a key.
 
-    shown: the number format. name: what formulas call it. unit: of its value, spelled as in the
-    ledger. claim: the claim whose printed text, or number, it shows. like: names a set of cells of
-    like size; their rounding errors are as large as the largest of them allows. link: where a click
-    on the text leads. limits, choices: what may be typed, the least and the greatest number in its
-    unit, or one of these texts. wrap: long text takes two lines.
+    shown: number format. name: defined name, by which formulas refer to the cell. unit: of the
+    value, spelled as in the ledger. claim: id of the claim whose printed text, or number, the cell
+    shows. like: name of a set of cells with values of like size; the largest of them limits the
+    rounding error of each. link: the place that a click on the text leads to. limits, choices: what
+    may be typed, from the least to the greatest number in the cell's unit, or one of these texts.
+    wrap: whether a long text takes two lines.
     """
 
     text: str = ""
@@ -62,19 +62,19 @@ class Cell(NamedTuple):
 
 
 def formula(key: str, expression: str, style: str = "number", **more: Any) -> Cell:
-    """A cell with a formula, given with its "="; its value is supplied under the key."""
+    """Return a cell with a formula, which starts with "="; its value is supplied under the key."""
     return Cell(key=key, formula=expression, style=style, **more)
 
 
 def recorded(number: float | str, **more: Any) -> Cell:
-    """A cell with a number that follows no change of the inputs, or the key of such a number."""
+    """Return a cell with a number, or the key of a number, that no change of an input affects."""
     if isinstance(number, str):
         return Cell(key=number, style="recorded", **more)
     return Cell(number=number, style="recorded", **more)
 
 
 def unit_text(unit: str) -> Cell:
-    """The unit beside a number."""
+    """Return the cell beside a number that shows its unit."""
     return Cell(written(unit) or "–", "unit")
 
 
@@ -82,12 +82,13 @@ _SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥"}
 
 
 def printed(ledger: Ledger, name: str, unit: str = "1", **more: Any) -> Cell:
-    """The text of a claim as the report prints it, with its unit where that is another.
+    """Return a cell with the text of a claim as the report prints it, such as "≥ 6" for a bound.
 
-    A bound has its sign before it; "several" is one by itself.
+    The unit of the claim follows if it is not `unit`, which stands beside the cell.
     """
     claim = ledger.claims[name]
     claim_unit = "" if claim.unit == unit else f" {written(claim.unit)}"
+    # "several" says by itself that it is a bound.
     bound = claim.kind == "bound" and "several" not in claim.text
     sign = f"{_SIGNS[claim.relation]} " if bound and claim.relation else ""
     return Cell(f"{sign}{claim.shown}{claim_unit}".rstrip(), "printed", claim=name, **more)
@@ -102,39 +103,38 @@ class Rule(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A curve of a chart: the cell with its name, and the cells of its x and y: "A5:A25"."""
+    """A curve of a chart: the place of its name, and the ranges of x and y, such as "A5:A25"."""
 
     name: Place
     x: str
     y: str
 
 
-@cache
-def tables() -> dict[str, Any]:
-    """The tables of `sheets.toml`."""
-    return tomllib.loads(Path(__file__).with_name("sheets.toml").read_text(encoding="utf-8"))
+TABLES: Mapping[str, Any] = tomllib.loads(
+    Path(__file__).with_name("sheets.toml").read_text(encoding="utf-8")
+)
+"""The tables of `sheets.toml`."""
 
-
-MESSAGES: Mapping[str, str] = tables()["messages"]
-"""What the workbook says of its inputs and of a run, by short names."""
+MESSAGES: Mapping[str, str] = TABLES["messages"]
+"""The messages of the workbook about its inputs and runs, by short names."""
 
 
 def filled(text: str, words: Mapping[str, object]) -> str:
-    """A text of `sheets.toml` with functions, messages and these words in place of braces.
+    """Replace the braces in a text of `sheets.toml` by functions, messages and the given words.
 
     >>> filled("={rest_depth:{c}}", {"c": "B7"})[:18]
     '=IF(B7<=2/3,4*SIN('
     """
 
     def called(match: re.Match[str]) -> str:
-        return re.sub(r"\bx\b", match[2], tables()["functions"][match[1]])
+        return re.sub(r"\bx\b", match[2], TABLES["functions"][match[1]])
 
     text = re.sub(r"\{(\w+):((?:\w|\{\w+\})+)\}", called, text)
     return text.format_map({**MESSAGES, "none": NOT_COMPUTED, **words})
 
 
 def filled_in(entry: Mapping[str, Any], words: Mapping[str, object]) -> dict[str, Any]:
-    """An entry of `sheets.toml` with all its texts filled; what is no text stays as it is."""
+    """Return an entry of `sheets.toml` with all its texts `filled`."""
     return {
         key: filled(value, words) if isinstance(value, str) else value
         for key, value in entry.items()
@@ -143,12 +143,13 @@ def filled_in(entry: Mapping[str, Any], words: Mapping[str, object]) -> dict[str
 
 @dataclass(slots=True, kw_only=True)
 class SheetPlan:
-    """One sheet: cells by address, column widths in characters, and how it scrolls and prints.
+    """One sheet: its cells by address, column widths in characters, and how it scrolls and prints.
 
-    row: where the next cells go. entry: what `sheets.toml` says of it. headed: the first column
-    that scrolls, and the first and last row of heads, which do not, and head every printed page.
-    page_break: the last row of page 1. filtered: a table with a filter. curves: those of its chart.
-    written: what that shows, in words, with values by key as written: "{high.depth_um:.4g}".
+    row: where the next cells go. entry: the table of the sheet in `sheets.toml`. headed: the first
+    column that scrolls, and the first and last row of heads; heads do not scroll, and are repeated
+    on every printed page. page_break: the last row of page 1. filtered: the cells of a table that
+    has a filter. curves: those of the sheet's chart. written: what the chart shows, in words that
+    refer to values by key: "{high.depth_um:.4g}".
     """
 
     name: str
@@ -166,8 +167,8 @@ class SheetPlan:
 
     @classmethod
     def begun(cls, kind: str, name: str = "", **words: object) -> "SheetPlan":
-        """A sheet as `sheets.toml` has it under `pages`, down to its notes, with these words."""
-        entry = tables()["pages"][kind]
+        """Begin a sheet with what `sheets.toml` has under `pages`: title, link home and notes."""
+        entry = TABLES["pages"][kind]
         widths = {c: width for letters, width in entry.get("widths", {}).items() for c in letters}
         page = cls(
             name=name or kind, entry=entry, widths=widths,
@@ -182,17 +183,17 @@ class SheetPlan:
         return page
 
     def single_cells(self, **words: object) -> None:
-        """The single cells of its entry, with these words."""
+        """Add the single cells of the sheet's entry, filled with these words."""
         for address, cell in self.entry["cells"].items():
             self.cells[address] = Cell(**filled_in(cell, words))
 
     def put(self, **cells: Cell | Literal[""] | None) -> None:
-        """One row, by column; where there is no cell, nothing."""
+        """Add a row of cells, given by column; those that are None or "" are left out."""
         self.cells |= {f"{column}{self.row}": cell for column, cell in cells.items() if cell}
         self.row += 1
 
     def say(self, words: str, style: str = "note", width: int = 165) -> None:
-        """A running text, broken into lines that fit a page."""
+        """Add a paragraph, broken into lines of at most `width` letters."""
         for line in wrap(words, width, break_on_hyphens=False):
             self.put(A=Cell(line, style))
 
@@ -200,10 +201,10 @@ class SheetPlan:
         self, columns: Mapping[str, Mapping[str, Any]], part: str, words: Mapping[str, object],
         count: int, finish: Callable[[str], str] = str,
     ) -> None:  # fmt: skip
-        """Columns of `sheets.toml`, by letter: heads, units, and `count` cells below one another.
+        """Add columns of `sheets.toml`, given by letter: heads, units and `count` cells each.
 
-        part: what the keys begin with; they end with the number of the cell in its column:
-        "high.row.depth[1]". finish: what is made of each formula.
+        part: what the keys begin with. They end with the number of the cell in its column, from 0:
+        "high.row.depth[1]". finish: is applied to every formula.
         """
         letters = "".join(columns)
         self.heads(letters, [entry["head"] for entry in columns.values()], letters)
@@ -215,13 +216,13 @@ class SheetPlan:
                 self.cells[f"{column}{first - 1}"] = Cell(unit, "unit right")
             looks = ("unit", "shown", "like")
             look = filled_in({name: entry[name] for name in looks if name in entry}, words)
-            at_start = {**look, "shown": entry.get("start_shown", "General")}
+            start_look = {**look, "shown": entry.get("start_shown", "General")}
             formulas = dict(row_formulas(entry, {**words, "column": column}, first, count))
             for k in range(count):
                 key = f"{part}.{entry['key']}[{k}]" if "key" in entry else ""
                 if k in formulas:
-                    look_here = at_start if k == 0 and "start" in entry else look
-                    cell = formula(key, finish(formulas[k]), **look_here)
+                    at_start = k == 0 and "start" in entry
+                    cell = formula(key, finish(formulas[k]), **(start_look if at_start else look))
                 elif not key:
                     cell = Cell(number=float(k), style="number")
                 elif not formulas:
@@ -230,22 +231,26 @@ class SheetPlan:
                     continue
                 self.cells[f"{column}{first + k}"] = cell
 
-    def heads(self, columns: str, words: Sequence[str], right: str) -> None:
-        """Heads of columns; `right` names the columns of numbers."""
-        for column, head in zip(columns, words, strict=True):
+    def heads(self, columns: str, heads: Sequence[str], right: str) -> None:
+        """Add a row of column heads; `right` lists the columns of numbers."""
+        for column, head in zip(columns, heads, strict=True):
             style = "head right" if column in right else "head" if column == "A" else "head unit"
             self.cells[f"{column}{self.row}"] = Cell(head, style)
         self.row += 1
 
     def table(self, right: str, scrolling: str) -> None:
-        """The heads of its entry; `right`: the columns of numbers, `scrolling`: as of `headed`."""
-        heads = dict(zip(ascii_uppercase, self.entry["heads"], strict=False))
-        self.widths = {column: width for column, (_, width) in heads.items()}
+        """Begin the table whose heads and widths the sheet's entry lists.
+
+        right: the columns of numbers. scrolling: the first column that scrolls.
+        """
+        columns = ascii_uppercase[: len(self.entry["heads"])]
+        heads, widths = zip(*self.entry["heads"], strict=True)
+        self.widths = dict(zip(columns, widths, strict=True))
         self.headed = scrolling, self.row, self.row
-        self.heads("".join(heads), [words for words, _ in heads.values()], right)
+        self.heads(columns, heads, right)
 
     def description(self, values: Mapping[str, Value]) -> str:
-        """What its chart shows, in words, with these values."""
+        """Describe the sheet's chart in words, with these values."""
         written = re.sub("{(.+?):(.+?)}", lambda at: format(values[at[1]], at[2]), self.written)
         return str(self.entry["chart"]["description"]).format(written=written)
 
@@ -253,34 +258,35 @@ class SheetPlan:
         self, ledger: Ledger, part: str, blocks: Mapping[str, Any],
         cases: Sequence[Mapping[str, object]], columns: str = "ABCDEF", headed: bool = True,
     ) -> None:  # fmt: skip
-        """Write blocks of `sheets.toml`, one quantity a line; that file says what a line may hold.
+        """Add blocks of `sheets.toml`, one line for each quantity; that file explains its entries.
 
-        part: what the keys begin with. cases: the words of each. columns: of symbol, meaning,
-        value, unit, printed text, source. headed: with heads of columns and blocks.
+        part: what the keys begin with. cases: the words of each case. columns: for symbol, meaning,
+        value, unit, printed text and source. headed: whether columns and blocks have heads.
         """
         if headed:
-            self.heads(columns, [words for words, _ in tables()["lines"]], columns[2] + columns[4])
+            self.heads(columns, [head for head, _ in TABLES["lines"]], columns[2] + columns[4])
         addresses: dict[str, str] = {}
         for number, (head, block) in enumerate(blocks.items()):
             if headed:
                 self.row += number > 0
                 self.put(**{columns[0]: Cell(head, "block")})
-            pairs = product(cases, block.items())
-            lines = {key.format_map(words): (words, line) for words, (key, line) in pairs}
-            for key, (words, line) in lines.items():
-                entry = filled_in(line, {**words, **addresses})
+            # A line whose key has no word of a case is the same for all cases, and stands once.
+            lines = {
+                key.format_map(words): (line, words)
+                for words in cases
+                for key, line in block.items()
+            }
+            for key, (line, words) in lines.items():
+                entry = {"shown": "0.0000", **filled_in(line, {**words, **addresses})}
                 symbol, meaning, source, claim = (
                     entry.pop(name, "") for name in ("symbol", "meaning", "source", "claim")
                 )
+                expression = entry.pop("formula")
+                if entry.pop("guard", True):
+                    expression = guarded(expression)
+                value = formula(f"{part}.{key}", expression, **entry)
+                addresses[key.rpartition(".")[2]] = f"{columns[2]}{self.row}"
                 place = source or (str(ledger.claims[claim].place) if claim else "")
-                expression, cell = entry.pop("formula"), f"{columns[2]}{self.row}"
-                value = formula(
-                    f"{part}.{key}",
-                    guarded(expression) if entry.pop("guard", True) else expression,
-                    shown=entry.pop("shown", "0.0000"),
-                    **entry,
-                )
-                addresses[key.rpartition(".")[2]] = cell
                 cells = (
                     symbol and Cell(symbol, "text"),
                     meaning and Cell(meaning),
@@ -294,56 +300,51 @@ class SheetPlan:
 
 @dataclass(frozen=True, kw_only=True)
 class WorkbookPlan:
-    """The sheets in order. No key stands twice, nor does a defined name, in whatever case."""
+    """The sheets in order. Keys are unique, and so are defined names, even if case is ignored."""
 
     sheets: tuple[SheetPlan, ...]
     properties: Mapping[str, str] = field(default_factory=dict)
 
-    def cells(self) -> Iterator[tuple[Place, Cell]]:
-        """Every cell with its place, sheet by sheet."""
-        for sheet in self.sheets:
-            for address, cell in sheet.cells.items():
-                yield (sheet.name, address), cell
-
-    def cell(self, place: Place) -> Cell:
-        """The cell in a place, an empty one where nothing is planned."""
-        cells = next((sheet.cells for sheet in self.sheets if sheet.name == place[0]), {})
-        return cells.get(place[1], Cell())
+    @cached_property
+    def cells(self) -> Mapping[Place, Cell]:
+        """Every cell by its place, sheet by sheet."""
+        return {
+            (sheet.name, address): cell
+            for sheet in self.sheets
+            for address, cell in sheet.cells.items()
+        }
 
     @cached_property
     def where(self) -> Mapping[str, Place]:
-        """Key -> the place of the cell that holds it."""
-        return {cell.key: place for place, cell in self.cells() if cell.key}
+        """The place of the cell with each key."""
+        return {cell.key: place for place, cell in self.cells.items() if cell.key}
 
     @cached_property
     def inexact(self) -> Set[Place]:
-        """The cells whose value passes through LN, SIN, ASIN, a cube root or ROUND.
+        """The cells whose value depends on LN, SIN, ASIN, a cube root or ROUND.
 
-        Its last digits depend on the program; all other values are the same double everywhere.
+        Their last digits depend on the program; all other values are the same double everywhere.
         """
         from openpyxl.utils.cell import coordinate_to_tuple
 
         from spreadsheets import engines, foreign
         from spreadsheets.recalculation import Calculation, parse
 
-        sheets = {
-            sheet.name: {
-                coordinate_to_tuple(address): foreign.Cell(cell.formula or None, None)
-                for address, cell in sheet.cells.items()
-            }
-            for sheet in self.sheets
-        }
-        names = {cell.name: "'{}'!{}".format(*place) for place, cell in self.cells() if cell.name}
+        sheets: dict[str, dict[tuple[int, int], foreign.Cell]] = {}
+        for (sheet, address), cell in self.cells.items():
+            position = coordinate_to_tuple(address)
+            sheets.setdefault(sheet, {})[position] = foreign.Cell(cell.formula or None, None)
+        names = {cell.name: "'{}'!{}".format(*at) for at, cell in self.cells.items() if cell.name}
         book = foreign.Book(Path(), sheets, names)
-        texts = {place: cell.formula for place, cell in book.cells() if cell.formula}
-        formulas = {place: parse(text, place, book) for place, text in texts.items()}
-        rounded = {at for at, text in texts.items() if re.search(r"LN\(|SIN\(|\^|ROUND\(", text)}
-        inexact = Calculation(book, formulas, {}).needing(rounded)
+        texts = {position: cell.formula for position, cell in book.cells() if cell.formula}
+        formulas = {position: parse(text, position, book) for position, text in texts.items()}
+        sources = {at for at, text in texts.items() if re.search(r"LN\(|SIN\(|\^|ROUND\(", text)}
+        inexact = Calculation(book, formulas, {}).needing(sources)
         return {(sheet, engines.address(row, column)) for sheet, row, column in inexact}
 
 
 def place_of(text: str) -> Place:
-    """A place that is written as in a formula, without quotes.
+    """Return the place that a text names as a formula does, but without quotes.
 
     >>> place_of("Table A-1!B3")
     ('Table A-1', 'B3')
@@ -355,11 +356,12 @@ def place_of(text: str) -> Place:
 def row_formulas(
     entry: Mapping[str, str], words: Mapping[str, object], first: int, count: int
 ) -> Iterator[tuple[int, str]]:
-    """The formulas of a column of `sheets.toml`, with their numbers: those of `count` rows.
+    """Yield the formulas of `count` cells of a column of `sheets.toml`, with their numbers from 0.
 
-    `each` is that of every row; or `start` that of row `first` of the sheet, `first` that of the
-    row below it (else `then`), and `then` that of all others. What is no formula by itself, without
-    "=", is blank where column A is no number; a test for "" fails in two spreadsheet programs.
+    An entry has one formula for all cells (`each`); or one for the first cell, in row `first` of
+    the sheet (`start`), one for the second (`first`, if it is special), and one for all others
+    (`then`). A formula that does not begin with "=" is left blank where column A has no number; to
+    compare column A with "" instead fails in two spreadsheet programs.
     """
     then = entry.get("then")
     kinds = entry.get("start"), entry.get("first", then), then
@@ -379,15 +381,15 @@ _REFERENCE = re.compile(
 
 
 def guarded(expression: str) -> str:
-    """The formula, calculated where all that it refers to are numbers.
+    """Return a formula that is computed only if all cells that it refers to hold numbers.
 
-    Elsewhere it says that nothing was computed. A mere reference is left as it is.
+    Otherwise it gives "not computed". A formula that only repeats a cell is returned unchanged.
 
     >>> guarded("=2*R_p"), guarded("=R_p")
     ('=IF(COUNT(R_p)=1,2*R_p,"not computed")', '=R_p')
     """
-    called = [match["cell"] for match in _REFERENCE.finditer(expression)]
-    names = list(dict.fromkeys(name for name in called if name))
+    cells = [match["cell"] for match in _REFERENCE.finditer(expression)]
+    names = list(dict.fromkeys(filter(None, cells)))
     if not names or expression == f"={names[0]}":
         return expression
     return f'=IF(COUNT({",".join(names)})={len(names)},{expression[1:]},"{NOT_COMPUTED}")'

@@ -1,4 +1,4 @@
-"""Files that are written whole or not at all, each by itself; and archives that may be damaged."""
+"""Write each file completely or not at all; and name the errors that damaged archives raise."""
 
 import os
 import re
@@ -15,16 +15,16 @@ from threading import current_thread, main_thread
 UNREADABLE = (
     zipfile.BadZipFile, zlib.error, LZMAError, EOFError, OSError, RuntimeError, ValueError,
 )  # fmt: skip
-"""What `zipfile` raises for an archive that is damaged, or packed in a way it does not know."""
+"""What `zipfile` raises for an archive that is damaged or compressed by an unknown method."""
 
 
 def check_target(path: Path) -> Path:
-    """The file that writing to `path` will make or replace, links followed.
+    """Return the file that writing to `path` would create or replace, after following links.
 
-    Raises OSError, naming the path, for what is no regular file and for a folder that is not there.
+    Raises OSError, naming the path, if that is not a regular file or its folder does not exist.
     """
     with suppress(FileNotFoundError):
-        path.stat()  # a link that leads to itself
+        path.stat()  # raises OSError for a link that leads to itself
     target = path.resolve()
     if target.is_dir():
         raise IsADirectoryError(EISDIR, "is a folder; give a file", str(path))
@@ -39,26 +39,28 @@ def check_target(path: Path) -> Path:
 
 @contextmanager
 def draft_of(path: Path) -> Iterator[Path]:
-    """A file beside `path` to write to; it takes that name if the block ends well, or goes.
+    """Yield a draft beside `path`: renamed to `path` if the block succeeds, deleted if it fails.
 
-    A draft that a killed run left is removed first; a run that is still writing its own then ends
-    with an error, so that no file mixes two runs. Raises OSError, naming the path.
+    A draft that a killed run left behind is deleted first. If that run is in fact still writing, it
+    ends with an error, so that no file mixes two runs. Raises OSError, naming the path.
     """
     target = check_target(path)
     draft = target.with_name(f".{target.name}.{os.getpid()}.part")
     try:
-        for left in target.parent.iterdir():
-            if re.fullmatch(rf"\.{re.escape(target.name)}\.\d+\.part", left.name):
-                left.unlink(missing_ok=True)
+        for file in target.parent.iterdir():
+            if re.fullmatch(rf"\.{re.escape(target.name)}\.\d+\.part", file.name):
+                file.unlink(missing_ok=True)
         yield draft
         try:
             with draft.open("r+b") as written:
-                os.fsync(written.fileno())  # a crash must not leave a name without its content
+                # After a crash, the name must not stand for a file whose content was never stored.
+                os.fsync(written.fileno())
             draft.replace(target)
         except FileNotFoundError as error:
             raise OSError(EBUSY, "another run is writing this file") from error
     except OSError as error:
-        # A full disk is told without a name; of several drafts, the one that fails gives its own.
+        # The error of a full disk names no file. An error that names another file is not about
+        # this draft: where several drafts are open, it comes from one of the others.
         if error.errno is None or error.filename not in (None, str(draft)):
             raise
         raise type(error)(error.errno, error.strerror, str(path)) from error
@@ -73,12 +75,12 @@ def write_bytes(path: Path, content: bytes) -> None:
 
 
 def check_folder(folder: Path, names: Iterable[str]) -> None:
-    """Raise OSError, naming the path, where files of these names could not be written.
+    """Raise OSError, naming the path, if files of these names could not be written in a folder.
 
-    The names may lead into folders below; none of the folders need be there yet.
+    The names may contain subfolders. Neither the folder nor its subfolders need exist yet.
     """
     for path in (folder / name for name in names):
-        # The nearest folder that is there; a link is there, wherever it leads.
+        # The nearest parent that exists; a link counts as existing, wherever it leads.
         nearest = next(parent for parent in path.parents if os.path.lexists(parent))
         if not nearest.is_dir():
             raise NotADirectoryError(ENOTDIR, "is not a folder; give a folder", str(nearest))
@@ -89,13 +91,13 @@ def check_folder(folder: Path, names: Iterable[str]) -> None:
 
 
 def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
-    """Write files by name into a folder, made if needed. Raises OSError.
+    """Write files, given by name, into a folder, which is created if needed. Raises OSError.
 
-    They take their names one by one when all are drafted; an interruption waits until all have.
-    Where one cannot take its name, those before it have.
+    When all drafts are complete, they are renamed one by one; an interruption waits until that is
+    done. If a draft cannot be renamed, those before it keep their new names.
     """
     check_folder(folder, files)
-    with ExitStack() as undisturbed, ExitStack() as drafts:
+    with ExitStack() as signals, ExitStack() as drafts:
         for name, content in files.items():
             path = folder / name
             for parent in reversed(path.parents):
@@ -103,27 +105,30 @@ def write_folder(folder: Path, files: Mapping[str, bytes]) -> None:
                     parent.mkdir()
                     drafts.callback(_remove_if_empty, parent)
             drafts.enter_context(draft_of(path)).write_bytes(content)
-        undisturbed.enter_context(_signals_wait())
+        signals.enter_context(_postponed_signals())
 
 
 @contextmanager
-def _signals_wait() -> Iterator[None]:
-    """Hold back what would end the program; only its main thread hears of signals."""
+def _postponed_signals() -> Iterator[None]:
+    """Postpone signals that would end the program until the block ends.
+
+    Only the main thread can do so; in any other thread nothing is postponed.
+    """
     if current_thread() is not main_thread():
         yield
         return
-    heard: list[int] = []
-    before = {}
+    received: list[int] = []
+    handlers = {}
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
-        number = getattr(signal, name, None)  # Windows has no hangup
+        number = getattr(signal, name, None)  # Windows has no SIGHUP
         if number is not None and signal.getsignal(number) not in (signal.SIG_IGN, None):
-            before[number] = signal.signal(number, lambda number, _: heard.append(number))
+            handlers[number] = signal.signal(number, lambda number, _: received.append(number))
     try:
         yield
     finally:
-        for number, handler in before.items():
+        for number, handler in handlers.items():
             signal.signal(number, handler)
-        for number in heard[:1]:
+        for number in received[:1]:
             signal.raise_signal(number)
 
 

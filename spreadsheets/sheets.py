@@ -1,8 +1,8 @@
-"""The sheets of the workbook and their order; all but those of `cases.py`.
+"""Plan of the whole workbook, and of all sheets but those of `cases.py`.
 
-`Overview`, the first, has the results, whether they can be trusted, what the audit found, and the
-sheets. `Audit` has every claim of the ledger, with a live verdict where a cell computes it.
-`Figure 3`, `Figure 5` and `Convergence` are charts, and the numbers behind them.
+`Overview`, the first, lists the results, whether they can be trusted, what the audit found, and the
+other sheets. `Audit` lists every claim of the ledger, with a live verdict if a cell computes it.
+`Figure 3`, `Figure 5` and `Convergence` are charts, with the numbers behind them.
 """
 
 from collections.abc import Mapping, Sequence
@@ -25,6 +25,7 @@ from spreadsheets.plan import (
     HOME,
     MESSAGES,
     NOT_COMPUTED,
+    TABLES,
     Cell,
     Curve,
     Rule,
@@ -37,7 +38,6 @@ from spreadsheets.plan import (
     place_of,
     printed,
     recorded,
-    tables,
     unit_text,
 )
 
@@ -45,15 +45,15 @@ PROGRAM = f"coldspray {version('coldspray')}"
 
 AS_PRINTED, OTHERWISE = "as printed", "not as printed"
 KINDS = ((AS_PRINTED, "as_printed"), (OTHERWISE, "otherwise"), (NOT_COMPUTED, "none"))
-"""Live verdicts, and what the names of their counts end with."""
+"""Each live verdict, and the ending of the name of the cell that counts it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Findings:
-    """What a finished audit tells the workbook; texts and numbers only.
+    """What the workbook shows of a finished audit, as texts and numbers.
 
-    counts: verdict -> how many numbers have it. verdicts, explanations: by claim. failing: claims
-    that do not follow from what the report says. differing: those that public sources contradict.
+    counts: number of entries by verdict. verdicts, explanations: by claim. failing: claims that do
+    not follow from what the report says. differing: claims that public sources contradict.
     """
 
     headline: str
@@ -67,11 +67,11 @@ class Findings:
 def workbook_plan(
     ledger: Ledger, pages: Sequence[CaseSheet], findings: Findings | None = None
 ) -> WorkbookPlan:
-    """The whole workbook for one or two cases; `Table A-1` and `Figure 5` show the last of them.
+    """Plan the workbook for one or two cases; `Table A-1` and `Figure 5` show the last of them.
 
-    With `findings` it is the report's own workbook, with all that is about the report alone;
-    `pages` then has the same cases with the coarser step, too. Raises ValueError for a claim of
-    the ledger that is computed by no cell.
+    With `findings` it is the report's own workbook, and also has what concerns only the report;
+    `pages` must then contain the same cases with the coarser step, too. Raises ValueError if the
+    ledger names a cell for a claim, and that cell has no formula.
     """
     report, cases = findings is not None, [page for page in pages if not page.coarse]
     table = table_a1(ledger, cases[-1], report)
@@ -83,31 +83,31 @@ def workbook_plan(
     sheets += [_formulas(ledger, name, words) for name in ("Frank-Zook", "Crater", "Resistance")]
     sheets += [_audit(ledger, findings)] if findings else []
     about = {name: getattr(ledger.report, name) for name in ("title", "author", "year")}
-    properties = filled_in(tables()["properties"], {**about, "program": PROGRAM})
+    properties = filled_in(TABLES["properties"], {**about, "program": PROGRAM})
     overview = _overview(ledger, pages, sheets, findings)
     plan = WorkbookPlan(sheets=(overview, *sheets), properties=properties)
     for claim in ledger.claims.values() if report else ():
-        if claim.workbook and not plan.cell(place_of(claim.workbook)).formula:
+        if claim.workbook and not plan.cells.get(place_of(claim.workbook), Cell()).formula:
             reason = f"the workbook computes nothing in {claim.workbook}"
             raise ValueError(f"claim {claim.id!r}: {reason}")
     return plan
 
 
-def _block(page: SheetPlan, table: str, right: str = "") -> None:
-    """The heads of a table of `Overview`, after a blank row."""
-    words = page.entry["heads"][table]
+def _table_heads(page: SheetPlan, table: str, right: str = "") -> None:
+    """Add the heads of a table of `Overview`, after a blank row."""
+    heads = page.entry["heads"][table]
     page.row += 1
-    page.heads("ABCDEF", [*words, *[""] * (6 - len(words))], right)
+    page.heads("ABCDEF", heads + [""] * (6 - len(heads)), right)
 
 
 def _overview(
     ledger: Ledger, pages: Sequence[CaseSheet], sheets: Sequence[SheetPlan],
     findings: Findings | None,
 ) -> SheetPlan:  # fmt: skip
-    """The first sheet; `sheets` are the others."""
+    """Plan the first sheet; `sheets` are the others, to which it links."""
     report, scheme = ledger.report, pages[0].scheme
     page = SheetPlan.begun(HOME)
-    title = filled(tables()["properties"]["title"], {"title": report.title})
+    title = filled(TABLES["properties"]["title"], {"title": report.title})
     page.put(A=Cell(title, "title"))
     page.say(
         f"After the report by {report.author} ({report.year}). Written by {PROGRAM}; "
@@ -118,13 +118,13 @@ def _overview(
         page.say(findings.headline, style="headline", width=140)
     _results(page, ledger, pages)
     if findings is not None:
-        _what_fails(page, ledger, findings)
+        _failures(page, ledger, findings)
         page.page_break = page.row
-    _block(page, "sheets")
+    _table_heads(page, "sheets")
     for sheet in sheets:
         link = Cell(sheet.name, "link", link=(sheet.name, "A1"))
         page.put(A=link, B=Cell(sheet.entry["shows"]))
-    _block(page, "how_to_read")
+    _table_heads(page, "how_to_read")
     for style, meaning in page.entry["how_to_read"].items():
         page.put(A=Cell("1.23", f"{style} sample"), B=Cell(meaning, "text"))
     page.print_area = f"A1:F{page.row - 1}"
@@ -132,30 +132,34 @@ def _overview(
 
 
 def _results(page: SheetPlan, ledger: Ledger, cases: Sequence[CaseSheet]) -> None:
-    _block(page, "results", right="BCDE")
+    """Add the final depth of every case, the state of its run, and the counts of inputs."""
+    _table_heads(page, "results", right="BCDE")
     for case in cases:
-        key, sheet, fixed = f"overview.{case.part}", f"'{case.name}'!", {"shown": "0.0000"}
-        # Beside the name of a sheet for another beta: the beta in use.
+        key, sheet, suffix = f"overview.{case.part}", f"'{case.name}'!", case.suffix
+        look = {"style": "result", "shown": "0.0000"}
+        in_um = {"unit": "um", "like": f"{case.part}.depth_um"}
+        depth, ratio = case.words["depth_claim"], case.words["ratio_claim"]
+        # A sheet keeps its name if beta is changed: the state then begins with the beta in use.
         beta = "" if case.resistance_given else f'IF({sheet}I2="","",{sheet}I1&": ")&'
-        end, like = case.suffix, {"unit": "um", "like": f"{case.part}.depth_um"}
         page.rules += case.rules(f"F{page.row}")
         page.put(
             A=Cell(case.name, "link", link=(case.name, "A1")),
-            B=formula(f"{key}.depth_um", f"=depth_um{end}", "result", **like, **fixed),
-            D=formula(f"{key}.normalized_depth", f"=normalized_depth{end}", "result", **fixed),
-            F=formula(f"{key}.message", f"={beta}message{end}", "state"),
-            C=printed(ledger, depth, "um") if (depth := case.words["depth_claim"]) else None,
-            E=printed(ledger, ratio) if (ratio := case.words["ratio_claim"]) else None,
+            B=formula(f"{key}.depth_um", f"=depth_um{suffix}", **in_um, **look),
+            D=formula(f"{key}.normalized_depth", f"=normalized_depth{suffix}", **look),
+            F=formula(f"{key}.message", f"={beta}message{suffix}", "state"),
+            C=printed(ledger, depth, "um") if depth else None,
+            E=printed(ledger, ratio) if ratio else None,
         )
-    for name, words in page.entry["counts"].items():
+    for name, label in page.entry["counts"].items():
         page.rules.append(Rule(f"B{page.row}", f"={name}>0", "warning"))
         count = formula(f"overview.{name}", f"={name}", "result")
-        page.put(A=Cell(words, "link", link=("Inputs", "A1")), B=count)
+        page.put(A=Cell(label, "link", link=("Inputs", "A1")), B=count)
 
 
-def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
+def _failures(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
+    """Add the claims that fail, each with its explanation, and the counts of all verdicts."""
     for table, names in (("failing", findings.failing), ("differing", findings.differing)):
-        _block(page, table, right="BC")
+        _table_heads(page, table, right="BC")
         for name in names:
             claim = ledger.claims[name]
             first, *more = wrap(findings.explanations[name], 100)
@@ -167,9 +171,9 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
             page.put(**cells)
             for line in more:
                 page.put(D=Cell(line, "text"))
-    _block(page, "verdicts", right="BDE")
-    given = [(verdict, count) for verdict, count in findings.counts.items() if count]
-    for (verdict, count), kind in zip_longest(given, KINDS[: len(given)]):
+    _table_heads(page, "verdicts", right="BDE")
+    counted = [(verdict, count) for verdict, count in findings.counts.items() if count]
+    for (verdict, count), kind in zip_longest(counted, KINDS[: len(counted)]):
         cells = {"A": Cell(verdict, "link", link=("Audit", "A1")), "B": recorded(float(count))}
         if kind:
             cells["D"] = Cell(kind[0], "number")
@@ -179,52 +183,52 @@ def _what_fails(page: SheetPlan, ledger: Ledger, findings: Findings) -> None:
 
 
 def _formulas(ledger: Ledger, name: str, words: Sequence[Mapping[str, object]]) -> SheetPlan:
-    """A sheet of closed formulas: one table under notes; its keys begin with the sheet's name."""
+    """Plan a sheet of closed formulas: notes and one table. Keys begin with the sheet's name."""
     page, part = SheetPlan.begun(name), name.lower().replace("-", "_")
-    page.widths = {c: width for c, (_, width) in zip("ABCDEF", tables()["lines"], strict=True)}
+    page.widths = {c: width for c, (_, width) in zip("ABCDEF", TABLES["lines"], strict=True)}
     page.row += 1
     page.headed = "A", page.row, page.row
-    page.lines(ledger, part, tables()[part], words)
+    page.lines(ledger, part, TABLES[part], words)
     return page
 
 
-# Audit, and the check of Table A-1, which has its verdicts
+# The audit, and the check of Table A-1, which repeats its live verdicts
 
 _HEAD_ROW = 11
 
 DIGITS = 4
-"""Decimals kept of a difference, so that 0 is 0: 3 times 0.2 ns is not 0.6 ns to the last bit."""
+"""Decimals of a difference; rounding makes 0 of 3 times 0.2 ns minus 0.6 ns."""
 
 
-def _colors(cells: str) -> list[Rule]:
-    """The style that each live verdict has in these cells of one column."""
+def _verdict_colors(cells: str) -> list[Rule]:
+    """Return the rules that color the live verdicts in these cells of one column."""
     first = cells.partition(":")[0]
     styles = {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"}
     return [Rule(cells, f'=${first}="{words}"', style) for words, style in styles.items()]
 
 
 def _audit(ledger: Ledger, findings: Findings) -> SheetPlan:
-    """Every claim with its verdicts; its entry in the ledger names the cell that computes it."""
+    """Plan the sheet of all claims; the ledger names the cell that computes a claim."""
     last = _HEAD_ROW + len(ledger.claims)
     verdicts = f"F{_HEAD_ROW + 1}:F{last}"
     page = SheetPlan.begun("Audit")
     page.print_area, page.filtered = f"A1:I{last}", f"A{_HEAD_ROW}:L{last}"
     page.row = 6
     page.put(A=Cell("Live verdicts", "block"))
-    for words, ending in KINDS:
-        count = f'=COUNTIF({verdicts},"{words}")'
-        counted = formula(f"audit.{ending}", count, "message", name=f"audit_{ending}")
-        page.put(A=Cell(words, "text"), B=counted)
+    for verdict, ending in KINDS:
+        expression = f'=COUNTIF({verdicts},"{verdict}")'
+        count = formula(f"audit.{ending}", expression, "message", name=f"audit_{ending}")
+        page.put(A=Cell(verdict, "text"), B=count)
     page.row = _HEAD_ROW
     page.table("CEHI", "B")
     for claim in ledger.claims.values():
-        page.put(**_row(ledger, claim, findings, page.row))
-    page.rules = _colors(verdicts)
+        page.put(**_claim_row(ledger, claim, findings, page.row))
+    page.rules = _verdict_colors(verdicts)
     return page
 
 
 def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
-    """Each number of the table as printed and as computed, for the sheet `Table A-1`."""
+    """Plan the comparison of each number that Table A-1 prints with the one computed."""
     page = SheetPlan.begun("Table A-1 check")
     page.row = 6
     page.table("DEFH", "B")
@@ -247,12 +251,12 @@ def _table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
             G=formula(f"{key}.verdict", live, "text"),
             H=recorded(float(claim.printed.quantum), shown="0E+00"),
         )
-    page.rules = _colors(f"G{first}:G{page.row - 1}")
+    page.rules = _verdict_colors(f"G{first}:G{page.row - 1}")
     return page
 
 
-def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
-    """A claim; where a cell computes it, the live verdict and the ends of what prints so, too."""
+def _claim_row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str, Cell]:
+    """Return a claim's row; if a cell computes it, with a live verdict and the printed interval."""
     cells = {
         "A": Cell(claim.id),
         "B": Cell(claim.title, wrap=True),
@@ -264,7 +268,7 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
     }
     if not claim.workbook:
         return cells | {"F": Cell("–", "text")}
-    # Fixed decimals for most, powers of ten where those would be long.
+    # Fixed decimals for most numbers, powers of ten for those that would be long.
     size = 0 if claim.printed is None else abs(claim.printed.value)
     shown = "0.0000E+00" if claim.place.cell or size >= 10**5 else "0.0000"
     key, place, interval = f"audit.{claim.id}", place_of(claim.workbook), claim.interval()
@@ -273,32 +277,33 @@ def _row(ledger: Ledger, claim: Claim, findings: Findings, row: int) -> dict[str
             cells[column] = recorded(float(end), shown=shown, claim=claim.id)
     return cells | {
         "E": formula(f"{key}.computed", "='{}'!{}".format(*place), shown=shown, unit=claim.unit),
-        "F": formula(f"{key}.verdict", _inside(claim, row), "text"),
+        "F": formula(f"{key}.verdict", _live_verdict(claim, row), "text"),
         "K": Cell(claim.workbook, "link", link=place),
     }
 
 
-def _inside(claim: Claim, row: int) -> str:
-    """Whether E lies between H and I, ends counted as they are closed or open."""
-    interval = claim.interval()
-    below = f"E{row}{'<=' if interval.upper_closed else '<'}I{row}"
-    above = f"E{row}{'>=' if interval.lower_closed else '>'}H{row}"
-    ends = (below, interval.upper), (above, interval.lower)
-    tests = [test for test, end in ends if end is not None]
+def _live_verdict(claim: Claim, row: int) -> str:
+    """Return the live verdict: whether E lies between H and I, which are open or closed ends."""
+    interval, tests = claim.interval(), []
     if interval.is_point:
-        # To nine digits: no program holds 2/3, and not all round it alike.
+        # To nine digits, since no double is 2/3 and programs round it differently.
         tests = [f"ABS(E{row}-H{row})*1000000000<=ABS(H{row})"]
+    else:
+        if interval.upper is not None:
+            tests += [f"E{row}{'<=' if interval.upper_closed else '<'}I{row}"]
+        if interval.lower is not None:
+            tests += [f"E{row}{'>=' if interval.lower_closed else '>'}H{row}"]
     verdict = f'"{AS_PRINTED}"'
     for test in tests:
         verdict = f'IF({test},{verdict},"{OTHERWISE}")'
     return f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'
 
 
-# Charts, and the numbers behind them
+# Charts, with the numbers behind them
 
 
 def _figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
-    """Depth against time, one curve for each case."""
+    """Plan the chart of depth against time, one curve for each case."""
     curves, written = [], []
     page = SheetPlan.begun("Figure 3")
     page.single_cells()
@@ -313,18 +318,18 @@ def _figure_3(cases: Sequence[CaseSheet]) -> SheetPlan:
         page.grid(dict(zip(columns, entries, strict=True)), key, case.words, case.rows + 1)
         x, y = (f"{column}7:{column}{page.row - 1}" for column in columns)
         curves.append(Curve((case.name, "I1"), x, y))
-        reached = f"{{{case.slug}.depth_um:.4g}} µm after {{{key}.time[{case.rows}]:.3g}} ns"
-        written.append(f"{case.label} reaches {reached}")
+        end = f"{{{case.slug}.depth_um:.4g}} µm after {{{key}.time[{case.rows}]:.3g}} ns"
+        written.append(f"{case.label} reaches {end}")
     page.curves, page.written = curves, ", ".join(written)
     return page
 
 
 POINTS = 21
-"""Velocities of Figure 5, both ends included."""
+"""Number of velocities in Figure 5, including both ends."""
 
 
 def _figure_5(case: CaseSheet) -> SheetPlan:
-    """Normalized depth against velocity for one case; the report's is that of beta = 5."""
+    """Plan the chart of normalized depth against velocity; the report's own is for beta = 5."""
     page, first, last = SheetPlan.begun("Figure 5"), 7, 7 + POINTS - 1
     missing = f"COUNT(T{first}:T{last})<{POINTS}"
     page.single_cells(missing=missing)
@@ -341,21 +346,24 @@ def _figure_5(case: CaseSheet) -> SheetPlan:
 
 
 LEVELS = 8
-"""Steps of the ladder, each half of the one before; the fifth is the step dt_s as written."""
+"""Number of time steps, each half of the one before; the fifth is dt_s as written."""
 
 
 def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
-    """The names of the numbers that the ladder's runs are made with: inputs, what follows, π."""
+    """Return the names of all numbers on which the runs depend: inputs, derived numbers and π."""
     blocks = inputs_of(cases, report=False).values()
     typed = [entry.name for block in blocks for entry in block if entry.attribute]
-    return list(dict.fromkeys([*typed, "D_p", "M_p", "pi_", *(f"R_t{case.of}" for case in cases)]))
+    return list(
+        dict.fromkeys([*typed, "D_p", "M_p", "pi_", *(f"R_t{case.input_suffix}" for case in cases)])
+    )
 
 
 NO_ORDER = "–"
+"""Stands for an order that is undefined."""
 
 
 def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
-    """The inputs of the runs and those in use; then, at a ladder of steps, depths against rest."""
+    """Plan the errors of the final depth at eight time steps, and the inputs of these runs."""
     curves, written = [], []
     page = SheetPlan.begun("Convergence", scheme=cases[0].scheme)
     page.rules = [Rule("A3", f'=$A$3="{MESSAGES["stale"]}"', "warning")]
@@ -363,7 +371,7 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     page.heads("HIJK", ("Input", "Of these runs", "In use", ""), "IJ")
     first, shown = page.row, "0.0####E+00"
     for name in run_inputs(cases):
-        # To twelve digits: programs round a conversion of units in their own way.
+        # To twelve digits, since programs differ in how they round a conversion of units.
         same = f"=IF(ABS(I{page.row}-J{page.row})*1000000000000<=ABS(I{page.row}),1,0)"
         same = guarded(same).replace(f'"{NOT_COMPUTED}"', "0")
         page.put(
@@ -376,7 +384,7 @@ def _convergence(cases: Sequence[CaseSheet]) -> SheetPlan:
     page.row = 36
     for case in cases:
         key, label = f"convergence.{case.slug}", f"A{page.row}"
-        # Called as it was when it was computed.
+        # The label is a text, not a formula: it names the case as it was when the runs were made.
         page.put(A=Cell(f"{case.name}, {case.label}", "block"))
         page.grid(page.entry["columns"], key, {"no_order": NO_ORDER}, LEVELS)
         x, y = (f"{column}{page.row - LEVELS}:{column}{page.row - 1}" for column in "BF")

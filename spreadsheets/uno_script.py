@@ -1,9 +1,9 @@
-"""Recalculate workbooks in LibreOffice and print the values of each as a line of JSON.
+"""Recalculate workbooks in LibreOffice and print the values of each as one line of JSON.
 
-Run by `engines.py` as `PYTHON uno_script.py SOFFICE PROFILE WORKBOOK...` with a Python that has the
-UNO bindings, perhaps an old one: only `uno` and the standard library can be imported here. On
-failure the last line of standard error says why. The JSON maps each sheet's name to its rows from
-A1 on: numbers with all their digits, text ("" where a cell is blank) and errors as text.
+`engines.py` runs this as `PYTHON uno_script.py SOFFICE PROFILE WORKBOOK...`, with a Python that has
+the UNO bindings and may be old: import only `uno` and the standard library here. On failure the
+last line of standard error says why. The JSON maps the name of each sheet to its rows from A1 on:
+numbers with all their digits, texts ("" for a blank cell), and errors as texts.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from pathlib import Path
 from typing import Any
 from uuid import uuid4
 
-if __name__ == "__main__":  # tests and documentation import this file under another Python
+if __name__ == "__main__":  # tests and documentation import this file with a Python without UNO
     uno: Any = importlib.import_module("uno")
 
 START_LIMIT_S = 60
-RESTART = 81  # how soffice leaves when it has set up a new profile and wants to start again
+RESTART = 81  # exit status of soffice when it has set up a new profile and must be started again
 ERRORS = {
     503: "#NUM!", 519: "#VALUE!", 521: "#NULL!", 524: "#REF!", 525: "#NAME?", 532: "#DIV/0!",
     32767: "#N/A",
 }  # fmt: skip
-"""Error numbers with a text of their own. The cells show the same, but in the user's language."""
+"""Error codes that have a name. A cell's own text would be in the user's language."""
 
 
 def start(soffice: str, profile: str) -> tuple[subprocess.Popen[bytes], Any]:
@@ -53,7 +53,7 @@ def start(soffice: str, profile: str) -> tuple[subprocess.Popen[bytes], Any]:
 
 
 def rows(sheet: Any) -> list[list[float | str]]:
-    """All cells from A1 to the end of the used area; the data array gives an error as None."""
+    """Return the values from A1 to the end of the used area, row by row."""
     cursor = sheet.createCursor()
     cursor.gotoEndOfUsedArea(False)
     end = cursor.RangeAddress
@@ -63,9 +63,9 @@ def rows(sheet: Any) -> list[list[float | str]]:
         number = sheet.getCellByPosition(column, row).getError()
         return ERRORS.get(number, f"Err:{number}")
 
-    return [
-        [error(row, column) if value is None else value for column, value in enumerate(line)]
-        for row, line in enumerate(data)
+    return [  # the data array holds None for an error
+        [error(row, column) if value is None else value for column, value in enumerate(values)]
+        for row, values in enumerate(data)
     ]
 
 
@@ -73,7 +73,7 @@ def main() -> None:
     """Recalculate the workbooks named on the command line."""
     soffice, profile, *workbooks = sys.argv[1:]
     process, desktop = start(soffice, profile)
-    # Without a window; only as .xlsx, or any text would do for a document.
+    # The filter is named, since LibreOffice would otherwise open any text file as a document.
     options = tuple(
         uno.createUnoStruct("com.sun.star.beans.PropertyValue", Name=name, Value=value)
         for name, value in (("Hidden", True), ("FilterName", "Calc MS Excel 2007 XML"))
@@ -87,7 +87,7 @@ def main() -> None:
             print(json.dumps({sheet.Name: rows(sheet) for sheet in document.Sheets}))
             document.close(True)
     finally:
-        # It may hang up before it has answered the request to end.
+        # LibreOffice may close the connection before it has answered the request to end.
         with suppress(uno.getClass("com.sun.star.lang.DisposedException")):
             desktop.terminate()
         process.wait()

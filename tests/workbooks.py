@@ -1,4 +1,4 @@
-"""What the tests of workbooks share: files read and changed without the program, a false engine."""
+"""Shared by the tests of workbooks: reading and changing files, usable engines, a fake engine."""
 
 import io
 import os
@@ -15,7 +15,7 @@ from spreadsheets.engines import ENGINES, Cell, Engine, EngineError
 
 
 def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
-    """The values that a file stores, or its formulas; by sheet and address, blank cells absent."""
+    """Return the stored values of a file, or its formulas, by sheet and address; no blank cells."""
     return {
         sheet.title: {
             cell.coordinate: float(cell.value) if type(cell.value) is int else cell.value
@@ -28,7 +28,7 @@ def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
 
 
 def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
-    """A file with its parts changed, packed as they were; one that becomes empty is left out."""
+    """Return a zip file with each part changed; a part that becomes empty is left out."""
     buffer = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as before, zipfile.ZipFile(buffer, "w") as after:
         for info in before.infolist():
@@ -40,14 +40,14 @@ def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
 BY_NAME = {engine.name: engine for engine in ENGINES}
 
 FROM_PIP = ("ironcalc", "formualizer")
-"""Required for the tests, so a missing one fails; the others come from the system."""
+"""Engines that the tests require, since pip installs them; the system installs the others."""
 
 
 def usable(name: str) -> Engine:
-    """An engine; skips or fails the test when it is missing."""
-    result = BY_NAME[name]
-    if (reason := result.missing()) is None:
-        return result
+    """Return an engine, or skip or fail the test if it is missing."""
+    engine = BY_NAME[name]
+    if (reason := engine.missing()) is None:
+        return engine
     if name in FROM_PIP or os.environ.get("COLDSPRAY_REQUIRE_ENGINES") == "1":
         pytest.fail(reason)
     pytest.skip(reason)
@@ -55,10 +55,11 @@ def usable(name: str) -> Engine:
 
 @dataclass
 class Fake(Engine):
-    """IronCalc, but that it tells falsehoods, fails, or cannot be used.
+    """IronCalc, except that it gives wrong values, fails, or cannot be used.
 
-    told: what it says of a cell, by sheet, address and right value. surplus: cells of its own.
-    failure: of any file but the one that an engine is tried with.
+    told: returns the value that it gives for a cell, from sheet, address and right value.
+    surplus: further cells that it gives. failure: the reason why it fails on every file but the one
+    by which `verify` finds out whether it repairs wrong values. reason: why it is missing.
     """
 
     told: Callable[[str, str, Any], Any] = lambda _sheet, _address, value: value

@@ -1,4 +1,4 @@
-"""The engines, as fixtures; workbooks, and files of them into which somebody typed."""
+"""Fixtures: the engines, workbooks, their files, and files into which somebody typed."""
 
 import re
 from collections.abc import Callable, Mapping
@@ -24,7 +24,7 @@ def engine(request: pytest.FixtureRequest) -> Engine:
 
 @pytest.fixture(scope="session")
 def build(record: Record) -> Callable[..., Workbook]:
-    """`workbook.build`, with one finished audit for all."""
+    """`workbook.build` with a finished audit, which all workbooks share."""
     return partial(workbook.build, record=record)
 
 
@@ -36,9 +36,9 @@ class Emitted:
     path: Path
 
     def typed(self, numbers: Mapping[str, float | str | None], path: Path) -> Path:
-        """A copy of the file in which numbers, texts or nothing were typed into cells, by key.
+        """Copy the file with numbers, texts or nothing (None) typed into cells, given by key.
 
-        All stored values remain those of the file, as when a person types.
+        All other stored values remain, so that they are out of date until an engine recalculates.
         """
         places = {self.book.plan.where[key]: number for key, number in numbers.items()}
         sheets = [sheet.name for sheet in self.book.plan.sheets]
@@ -68,7 +68,7 @@ def _type(content: str, address: str, number: float | str | None) -> str:
 
 @pytest.fixture(scope="session")
 def emit_to(tmp_path_factory: pytest.TempPathFactory) -> Callable[[Workbook], Emitted]:
-    """Return a function that writes a workbook and gives it with its file."""
+    """Return a function that writes a workbook to a file."""
 
     def written(book: Workbook) -> Emitted:
         path = tmp_path_factory.mktemp("emitted") / "workbook.xlsx"

@@ -1,4 +1,4 @@
-"""The workbook's plan and its file: formulas, printed texts, addresses, layout, parts."""
+"""The plan of the workbook and its file: formulas, printed texts, addresses, layout, parts."""
 
 import os
 import re
@@ -21,7 +21,7 @@ from replication.cases import BETA_5
 from replication.workbook import Workbook, build
 from spreadsheets import emit, safely
 from spreadsheets.cases import prepared_rows
-from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan, place_of, tables
+from spreadsheets.plan import TABLES, Cell, SheetPlan, WorkbookPlan, place_of
 from spreadsheets.sheets import AS_PRINTED, OTHERWISE
 
 LEDGER = load()
@@ -30,7 +30,7 @@ BOOKS = {scheme: build(scheme=scheme, record=RECORD) for scheme in ("published",
 BOOK = BOOKS["published"]
 PLAN = BOOK.plan
 SHEETS = {sheet.name: sheet for sheet in PLAN.sheets}
-FORMULAS = {place: cell.formula for place, cell in PLAN.cells() if cell.formula}
+FORMULAS = {place: cell.formula for place, cell in PLAN.cells.items() if cell.formula}
 OWN = build(replace(BETA_5, velocity=600.0))
 
 
@@ -38,26 +38,26 @@ FUNCTIONS = {
     "ABS", "ASIN", "COUNT", "COUNTIF", "IF", "IFERROR", "INDEX", "ISNUMBER", "LN", "MAX", "MIN",
     "ROUND", "ROW", "SIN", "SQRT",
 }  # fmt: skip
-"""All of Excel 2010 and older, and the same in every engine; none is volatile."""
+"""Functions that Excel 2010 has and every engine computes alike; none is volatile."""
 
 MATHEMATICAL = {
     "0", "0.5", "1", "2", "3", "4", "6", "7", "21", "0.00000001", "1000000", "1000000000",
     "1000000000000",
 }  # fmt: skip
-"""Numbers of the equations as printed (1/2, 4/3, 7/3), of counting, and of unit prefixes."""
+"""Numbers of the printed equations (1/2, 4/3, 7/3), counts, and powers of ten for units."""
 
 
 def test_formulas_are_ones_that_every_program_reads() -> None:
-    """Known functions and names, no physical number, no power but Eq. 11's root, no long text."""
-    names = {cell.name for _, cell in PLAN.cells() if cell.name}
-    counted = {str(n) for n in range(1, 12)}  # COUNT(...)=n
+    """Known functions and names, no physical number, no power except in Eq. 11, no long text."""
+    names = {cell.name for cell in PLAN.cells.values() if cell.name}
+    counts = {str(n) for n in range(1, 12)}  # COUNT(...)=n
     for place, formula in FORMULAS.items():
         bare = re.sub(r'"[^"]*"|\'[^\']*\'!', "", formula)
         bare = re.sub(r"\$?\b[A-Z]{1,2}\$?\d+\b", "", bare)
         assert set(re.findall(r"([A-Z]+)\(", bare)) <= FUNCTIONS, place
         assert set(re.findall(r"\b[A-Za-z]\w*\b(?!\()", bare)) <= names, place
         numbers = re.sub(r"[A-Za-z]\w*", "", re.sub(r"COUNT\([^)]*\)=\d+", "", bare))
-        assert set(re.findall(r"[\d.]+", numbers)) <= MATHEMATICAL | counted, (place, formula)
+        assert set(re.findall(r"[\d.]+", numbers)) <= MATHEMATICAL | counts, (place, formula)
         assert len(formula) < 8192
         assert all(len(text) < 256 for text in re.findall(r'"([^"]*)"', formula))
     assert [p for p, f in FORMULAS.items() if "^" in f] == [PLAN.where["resistance.alpha"]]
@@ -65,8 +65,8 @@ def test_formulas_are_ones_that_every_program_reads() -> None:
 
 
 def test_cells_whose_last_digits_depend_on_the_program_are_found() -> None:
-    """By way of cells, names, ranges and other sheets; rows of the scheme are not among them."""
-    keys = {PLAN.cell(place).key for place in PLAN.inexact}
+    """Through cells, names, ranges and other sheets; no row of the scheme is among them."""
+    keys = {PLAN.cells[place].key for place in PLAN.inexact}
     shown = {f"audit.{name}.computed" for name in ("observed-depth", "frank-zook-rha")}
     assert keys > shown | {"figure_5.depth_um[20]", "crater.least.ratio", "high.over_stop"}
     assert not [key for key in keys if ".row." in key]
@@ -75,8 +75,8 @@ def test_cells_whose_last_digits_depend_on_the_program_are_found() -> None:
 # Printed texts
 
 
-def own(cell: Cell, ledger: Ledger) -> bool:
-    """Whether what a cell shows is its claim's text, with or without its unit, or its number."""
+def shows_its_claim(cell: Cell, ledger: Ledger) -> bool:
+    """Whether a cell shows the text of its claim, with or without its unit, or its number."""
     claim = ledger.claims[cell.claim]
     if cell.number is None:
         text = re.sub("^[<>≤≥] ", "", cell.text) if claim.kind == "bound" else cell.text
@@ -101,14 +101,14 @@ def test_what_the_workbook_calls_printed_is_its_claims_text_also_of_another_repo
     another = build(ledger=ledger, record=RECORD)
     shown = set()
     for book in (*BOOKS.values(), OWN, another):
-        for place, cell in book.plan.cells():
+        for place, cell in book.plan.cells.items():
             assert bool(cell.claim) == (cell.style == "printed") or cell.number is not None, place
             if cell.claim:
-                assert own(cell, ledger if book is another else LEDGER), place
+                assert shows_its_claim(cell, ledger if book is another else LEDGER), place
                 shown.add(cell.claim)
     assert shown == set(LEDGER.claims)
-    # So do the report's numbers beside the inputs.
-    beside = [cell.number for (sheet, at), cell in another.plan.cells()
+    # The report's numbers beside the inputs follow the ledger, too.
+    beside = [cell.number for (sheet, at), cell in another.plan.cells.items()
               if sheet == "Inputs" and at[0] == "H"]  # fmt: skip
     assert {410, 31, 91} <= {*beside}
 
@@ -119,11 +119,11 @@ def test_what_the_workbook_calls_printed_is_its_claims_text_also_of_another_repo
 THROUGH_PRINT = {
     "ratio-beta-3", "ratio-beta-5", "excess", "beta-range-least", "beta-range-greatest",
 }  # fmt: skip
-"""Claims that the audit computes from other results as printed, and the workbook from theirs."""
+"""Claims that the audit computes from printed results, but the workbook from computed ones."""
 
 
 def test_each_address_in_the_ledger_computes_its_claim() -> None:
-    """In its unit; its value prints as the claim does exactly where the audit says so."""
+    """In its unit; the live verdict agrees with the audit."""
     addressed = [claim for claim in LEDGER.claims.values() if claim.workbook]
     assert len(addressed) > 50
     for claim in addressed:
@@ -142,7 +142,7 @@ def test_each_address_in_the_ledger_computes_its_claim() -> None:
 def test_a_wrong_address_is_refused() -> None:
     (claim,) = (claim for claim in LEDGER.claim if claim.id == "depth-beta-5")
     moved = msgspec.structs.replace(claim, workbook="Sheet beta 5!A1")
-    claims = [moved if own is claim else own for own in LEDGER.claim]
+    claims = [moved if entry is claim else entry for entry in LEDGER.claim]
     wrong = msgspec.structs.replace(LEDGER, claim=claims)
     with pytest.raises(ValueError, match="'depth-beta-5': the workbook computes nothing in"):
         build(ledger=wrong, record=RECORD)
@@ -153,10 +153,10 @@ def test_live_verdicts_under_the_centered_scheme_are_the_audits() -> None:
         if claim.workbook and claim.by_scheme:
             values = BOOKS["centered"].values
             assert values[f"audit.{claim.id}.verdict"] == AS_PRINTED, claim.id
-    cells = dict(BOOKS["centered"].plan.cells())
-    told = [cell.text for (sheet, at), cell in cells.items() if sheet == "Audit" and at[0] == "L"]
+    cells = BOOKS["centered"].plan.cells
+    texts = [cell.text for (sheet, at), cell in cells.items() if sheet == "Audit" and at[0] == "L"]
     by_scheme = [claim.by_scheme for claim in LEDGER.claims.values()]
-    assert [text.startswith("With the published scheme: ") for text in told[1:]] == by_scheme
+    assert [text.startswith("With the published scheme: ") for text in texts[1:]] == by_scheme
 
 
 def test_each_number_of_table_a1_prints_as_it_does_in_the_report() -> None:
@@ -189,15 +189,14 @@ def test_the_front_sheet_tells_what_holds_and_links_to_it() -> None:
     rows = range(12, 12 + len(LEDGER.claims))
     assert [SHEETS["Audit"].cells[f"A{row}"].text for row in rows] == [*LEDGER.claims]
     assert SHEETS["Audit"].filtered == f"A11:L{rows[-1]}"
-    cells = dict(PLAN.cells())
-    assert all(cell.link in cells for cell in cells.values() if cell.link)
+    assert all(cell.link in PLAN.cells for cell in PLAN.cells.values() if cell.link)
     for name, sheet in SHEETS.items():
         links = [cell.link for cell in sheet.cells.values() if cell.link]
         assert name == "Overview" or ("Overview", "A1") in links
 
 
 def beside(sheet: str, symbol: str) -> dict[str, str]:
-    """What a sheet shows as printed beside each quantity of a symbol."""
+    """Return the printed text beside each quantity with a symbol, by the quantity's meaning."""
     at = SHEETS[sheet].cells.get
     lines = (tuple(at(f"{column}{row}", Cell()) for column in "ABCE") for row in range(1, 50))
     return {b.text: e.text for a, b, c, e in lines if c.formula and a.text == symbol}
@@ -205,7 +204,7 @@ def beside(sheet: str, symbol: str) -> dict[str, str]:
 
 test_what_the_workbooks_hold = calls(
     "spreadsheets/kept.txt",
-    "Workbooks: the report's, with either scheme, and one of a case of one's own",
+    "The report's workbook, with either scheme, and the workbook of another case",
     globals(),
 )
 
@@ -214,21 +213,21 @@ test_what_the_workbooks_hold = calls(
 
 
 def width(sheet: SheetPlan, first: str, last: str) -> int:
-    """Pixels of columns at 100 %, the default width for those without one."""
+    """Return the width of columns in pixels at 100 %; a column without a width has the default."""
     columns = map(chr, range(ord(first), ord(last) + 1))
     return sum(int(sheet.widths.get(column, 8.43) * 7 + 5) for column in columns)
 
 
 @pytest.mark.parametrize("book", [*BOOKS.values(), OWN], ids=[*BOOKS, "own"])
 def test_printed_type_is_at_least_8_points(book: Workbook) -> None:
-    """10 points, on 10.4 inches of 96 pixels."""
+    """Of 10 points, scaled so that the columns fit 10.4 inches of 96 pixels each."""
     for sheet in book.plan.sheets:
         columns = re.findall("[A-Z]+", sheet.print_area or " ".join(sheet.cells))
         assert 10 * 10.4 * 96 / width(sheet, min(columns), max(columns)) >= 8, sheet.name
 
 
 def test_verdicts_and_checks_stand_on_the_first_screen() -> None:
-    """1366 pixels, less the row numbers and the scroll bar."""
+    """Of 1366 pixels, less the row numbers and the scroll bar."""
     for name, head in (
         ("Audit", "The audit’s verdict"),
         ("Inputs", "Check"),
@@ -239,8 +238,8 @@ def test_verdicts_and_checks_stand_on_the_first_screen() -> None:
         assert width(SHEETS[name], "A", heads[0][0]) <= 1366 - 60, name
 
 
-def test_charts_are_told_in_words_and_by_more_than_color() -> None:
-    looks = tables()["curves"]
+def test_charts_have_titles_with_units_and_curves_that_differ_in_more_than_color() -> None:
+    looks = TABLES["curves"]
     assert len({look["dash"] for look in looks}) == len({look["marker"] for look in looks}) == 2
     for name in ("Figure 3", "Figure 5", "Convergence"):
         page = SHEETS[name]
@@ -255,14 +254,14 @@ def test_charts_are_told_in_words_and_by_more_than_color() -> None:
 
 @pytest.mark.parametrize("book", [*BOOKS.values(), OWN], ids=[*BOOKS, "own"])
 def test_no_key_and_no_name_stands_twice(book: Workbook) -> None:
-    """Excel takes names that differ only in case as the same."""
+    """Excel does not distinguish names that differ only in case."""
     for things in ("key", "name"):
-        words = [getattr(cell, things).casefold() for _, cell in book.plan.cells()]
+        words = [getattr(cell, things).casefold() for cell in book.plan.cells.values()]
         assert max(Counter(filter(None, words)).values()) == 1
 
 
 def test_inputs_stand_apart_and_refuse_what_is_a_factor_of_a_million_off() -> None:
-    """In the column to type into, there is nothing else: pasting into it breaks no formula."""
+    """The column of inputs has nothing else, so that pasting into it breaks no formula."""
     for address, cell in SHEETS["Inputs"].cells.items():
         if address[0] == "C" and int(address[1:]) > 9:
             assert cell.limits
@@ -277,9 +276,9 @@ def plan_of(**cells: Cell) -> WorkbookPlan:
     return WorkbookPlan(sheets=(SheetPlan(name="S", cells=cells, widths={"A": 10.0}),))
 
 
-test_rows_to_prepare_and_what_no_file_is_made_of = calls(
+test_rows_to_prepare_and_refused_values = calls(
     "spreadsheets/kept.txt",
-    "Rows to prepare, and what no file is made of",
+    "Rows to prepare, and values that are refused",
     {"to_bytes": emit.to_bytes, "plan_of": plan_of, "Cell": Cell, "prepared_rows": prepared_rows},
 )
 
@@ -291,13 +290,13 @@ def test_a_name_that_spreadsheets_refuse_is_an_error() -> None:
 
 
 def test_the_file_is_sound_as_far_as_its_parts_tell(emitted: Any) -> None:
-    """Finite numbers, cells in order, no marked errors."""
+    """Finite numbers, rows in order, no errors, correct properties."""
     book = load_workbook(emitted.path)
-    asked = {str(v.sqref): v for v in book["Inputs"].data_validations.dataValidation}
+    validations = {str(v.sqref): v for v in book["Inputs"].data_validations.dataValidation}
     for address, cell in emitted.book.plan.sheets[1].cells.items():
-        assert (address in asked) == bool(cell.limits or cell.choices), address
+        assert (address in validations) == bool(cell.limits or cell.choices), address
         if cell.limits:
-            ends = float(asked[address].formula1), float(asked[address].formula2)
+            ends = float(validations[address].formula1), float(validations[address].formula2)
             assert ends == cell.limits, address
     with zipfile.ZipFile(emitted.path) as archive:
         parts = {name: archive.read(name).decode() for name in archive.namelist()}
@@ -305,7 +304,7 @@ def test_the_file_is_sound_as_far_as_its_parts_tell(emitted: Any) -> None:
     assert "Modeling Impacts for Cold-Gas Dynamic Spray" in core
     assert "<dc:creator>coldspray " in core
     assert "Rosset</dc:creator>" not in core
-    assert "dcterms:" not in re.sub(r"xmlns:\w+=\S+", "", core)  # no date: none would be true
+    assert "dcterms:" not in re.sub(r"xmlns:\w+=\S+", "", core)  # no date
     assert "<Application>coldspray</Application>" in app
     assert "Excel" not in app
     sheets = [text for name, text in parts.items() if "worksheets/sheet" in name]
@@ -313,7 +312,7 @@ def test_the_file_is_sound_as_far_as_its_parts_tell(emitted: Any) -> None:
         rows = [int(row) for row in re.findall(r'<row r="(\d+)"', text)]
         assert rows == sorted(set(rows))
         assert not re.search(r"<v>(?:nan|inf|-inf)</v>|_xlfn|#REF!", text)
-        # A formula that gives "" says that this is a text.
+        # A formula that gives "" must be marked as giving a text.
         assert not re.search(r'<c r="\w+" s="\d+"><f>[^<]*</f><v></v>', text)
         assert text.count("<ignoredError ") == 3
     assert sum("<autoFilter " in text for text in sheets) == 1

@@ -1,6 +1,6 @@
-"""Every engine recalculates, gives exact values in one common shape, and fails in one line.
+"""Every engine recalculates, gives exact values of documented types, and fails in one line.
 
-And what is said of an engine that does, or does not, give the values that a workbook must have.
+`verify` says whether an engine gives the values that a workbook must have.
 """
 
 import json
@@ -22,20 +22,22 @@ from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan
 from spreadsheets.verify import Difference, EngineCheck, compare, verify
 
 WRONG = 12345
-"""Stored beside every formula: to come back, a right value must have been computed."""
+"""Stored with every formula, so that an engine that gives the right value has computed it."""
 
 
-def told(section: str) -> dict[str, tuple[str, Any]]:
-    """The formulas of a section of `kept.txt`, each in its cell, and their values."""
-    cells = [(*ask.split(" ", 1), value) for ask, value in pairs("spreadsheets/kept.txt", section)]
-    return {at: (formula, json.loads(value)) for at, formula, value in cells}
+def formulas(section: str) -> dict[str, tuple[str, Any]]:
+    """Return the formulas of a section of `kept.txt` with their values, by cell."""
+    lines = [
+        (*text.split(" ", 1), value) for text, value in pairs("spreadsheets/kept.txt", section)
+    ]
+    return {at: (formula, json.loads(value)) for at, formula, value in lines}
 
 
 INPUTS = {"A1": 0.1, "A2": 0.2, "A3": 6e-10, "A4": 1.25e-05, "A5": 7670.0, "A6": 3.0}
-NUMBERS = told(
-    "Formulas of numbers, and Python's doubles for the same operations in the same order"
+NUMBERS = formulas(
+    "Formulas of numbers, with Python's doubles for the same operations in the same order"
 )
-OTHERS = told("Formulas, and the values documented for them; null for no value at all")
+OTHERS = formulas("Formulas with their documented values; null means no value")
 
 LONG_DOUBLE_ERROR = 1e-15
 """Debian's Gnumeric rounds once, on reading its result; Python rounds each input and each step.
@@ -44,7 +46,7 @@ No chain above has more than nine roundings in all, and each is at most 2**-53 =
 
 @pytest.fixture(scope="module")
 def workbook(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """Write a workbook with the formulas above and sheets that are hard to name or to see."""
+    """Write a workbook with the formulas above, an odd name, an empty sheet and a chart sheet."""
     path = tmp_path_factory.mktemp("engines") / "formulas with spaces é.xlsx"
     with xlsxwriter.Workbook(path) as book:
         sheet = book.add_worksheet("Formulas")
@@ -68,7 +70,7 @@ def workbook(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def recalculated(engine: Engine, workbook: Path) -> Values:
-    """Recalculate that workbook, once for each engine; it and its folder stay as they are."""
+    """Recalculate that workbook, once for each engine; the file and its folder do not change."""
     before = workbook.read_bytes()
     result = engine.recalculate(workbook)
     assert workbook.read_bytes() == before
@@ -77,7 +79,7 @@ def recalculated(engine: Engine, workbook: Path) -> Values:
 
 
 def test_an_engine_gives_each_value_as_documented(engine: Engine, recalculated: Values) -> None:
-    """Exact numbers, and no chart sheet."""
+    """Numbers are exact, and a chart sheet has no values."""
     major, minor, *_ = engine.version().split(".")
     assert (major + minor).isdigit()
     assert list(recalculated) == ["Formulas", "It's & <odd>"]
@@ -117,29 +119,29 @@ def test_missing_engine_says_what_to_install(
 def test_libreoffice_that_fails_or_hangs_is_an_error_and_it_may_want_a_restart(
     workbook: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """With a script in front of it as ``soffice``; it leaves no file behind."""
+    """A script stands in for ``soffice``. No file is left behind."""
     engine, real = usable("libreoffice"), shutil.which("soffice")
     temporary, program, started = (tmp_path / name for name in ("temporary", "soffice", "started"))
     temporary.mkdir()
     monkeypatch.setattr(tempfile, "tempdir", str(temporary))
     monkeypatch.setenv("PATH", str(tmp_path), prepend=":")
-    for script, limit, said in (
+    for script, limit, reason in (
         ("echo chatter >&2; exit 3", 600, "soffice ended with status 3 before it answered"),
-        # Returning before the sleep is over shows that it was killed: its end is waited for.
+        # The test waits for the end of the process, so that it would hang if that was not killed.
         ("sleep 600", 1, "no answer within 1 s"),
         (f'[ -e {started} ] && exec {real} "$@"\ntouch {started}; exit 81', 120, ""),
     ):
         program.write_text(f"#!/bin/sh\n{script}\n")
         program.chmod(0o755)
         monkeypatch.setattr(engines, "TIME_LIMIT_S", limit)
-        if said:
-            with pytest.raises(EngineError, match=f"^libreoffice: {said}$"):
+        if reason:
+            with pytest.raises(EngineError, match=f"^libreoffice: {reason}$"):
                 engine.recalculate(workbook)
     assert engine.recalculate(workbook)["Formulas"]["B1"] == 0.1 + 0.2
     assert not list(temporary.iterdir())
 
 
-# What they make of a workbook whose values are known
+# Verification of a workbook whose values are known
 
 SMALL = 0.1 + 0.2 - 0.29
 CELLS = {
@@ -153,20 +155,20 @@ PLAN = WorkbookPlan(sheets=(SheetPlan(name="S", cells=CELLS), SheetPlan(name="Em
 VALUES = {"a": 0.1, "small": SMALL, "half": 0.5, "log": math.log(0.1), "alone": 0.1 * 3}
 EXPECTED = emit.cell_values(PLAN, VALUES)
 BOUND = 1e-14
-"""Of half, the largest of its column, 5e-15: so much may SMALL be off, too."""
+"""Relative to "half", the largest number of its column: 5e-15, which is also allowed for SMALL."""
 
 
 @pytest.fixture
 def check(tmp_path: Path) -> Callable[..., EngineCheck]:
-    """What is said of an engine that gives what is right, but for the cells it is told to give."""
+    """Return a function that verifies an engine which gives right values except in some cells."""
     path = tmp_path / "w.xlsx"
     path.write_bytes(emit.to_bytes(PLAN, VALUES))
 
     def check(
-        told: dict[str, Any], expected: dict[str, Any] = EXPECTED, **more: Any
+        given: dict[str, Any], expected: dict[str, Any] = EXPECTED, **more: Any
     ) -> EngineCheck:
-        surplus = tuple(("S", address, told[address]) for address in told.keys() - CELLS.keys())
-        cells = {**EXPECTED["S"], **told}
+        surplus = tuple(("S", address, given[address]) for address in given.keys() - CELLS.keys())
+        cells = {**EXPECTED["S"], **given}
         engine = Fake(
             lambda s, at, value: cells[at] if s == "S" else value, **{"surplus": surplus, **more}
         )
@@ -175,17 +177,20 @@ def check(tmp_path: Path) -> Callable[..., EngineCheck]:
     return check
 
 
-@kept("spreadsheets/kept.txt", "Cells that an engine gives otherwise: in doubles, in long doubles")
+@kept(
+    "spreadsheets/kept.txt",
+    "Wrong values of an engine, and its outcome if it computes in doubles, in long doubles",
+)
 def test_one_wrong_cell_is_enough(
     question: str, answer: str, check: Callable[..., EngineCheck]
 ) -> None:
-    """One ulp of any cell but a function's is a difference, except to an engine of long doubles."""
-    told = eval(question, {"math": math, "SMALL": SMALL})
+    """One ulp is a difference, except in a cell of a function or in an engine of long doubles."""
+    given = eval(question, {"math": math, "SMALL": SMALL})
     for long_doubles, outcome in zip((False, True), answer.split(", "), strict=True):
-        result, good = check(told, long_doubles=long_doubles), outcome == "verified"
+        result, good = check(given, long_doubles=long_doubles), outcome == "verified"
         assert (result.outcome, result.passed) == (outcome, good)
-        assert [left.cell for left in result.wrong] == ([] if good else list(told))
-        assert (result.version, result.cells, result.rounded) == ("1.0", 4, len(told) * good)
+        assert [left.cell for left in result.wrong] == ([] if good else list(given))
+        assert (result.version, result.cells, result.rounded) == ("1.0", 4, len(given) * good)
 
 
 def test_a_sheet_that_is_lost_or_new_is_seen(check: Callable[..., EngineCheck]) -> None:

@@ -1,4 +1,4 @@
-"""The workbook against Python: every cell the same double, in real engines, whatever is typed."""
+"""Real engines compute the same double as Python in every cell, whatever is typed as input."""
 
 import math
 import re
@@ -8,6 +8,7 @@ from pathlib import Path
 from random import Random
 from typing import Any
 
+import msgspec
 import pytest
 from workbooks import stored, usable
 
@@ -22,7 +23,7 @@ from replication.models.sheet import run
 from replication.workbook import Workbook, findings_of, live_verdicts
 from spreadsheets import emit
 from spreadsheets.engines import Engine, Values
-from spreadsheets.plan import NOT_COMPUTED, Value, tables
+from spreadsheets.plan import NOT_COMPUTED, TABLES, Value
 from spreadsheets.sheets import OTHERWISE
 from spreadsheets.verify import compare, tolerances
 
@@ -39,7 +40,7 @@ CASES: dict[str, tuple[Impact | None, str]] = {
     "too long a step": (replace(BETA_5, step=4e-8), "published"),
     "numbers that no unit makes round": (ODD, "centered"),
     "beta of sixteen digits": (replace(BETA_5, beta=4.567890123456789, step=1e-9), "published"),
-    # Near 0.0944 m/s the series takes over from the logarithm.
+    # Below about 0.0944 m/s the workbook computes ln(1 + x) by its series.
     **{
         f"slow, {v} m/s": (replace(BETA_5, velocity=v, stop_velocity=v / 2), "published")
         for v in (1e-4, 0.09, 0.0944, 0.1, 1.0, 30.0)
@@ -53,7 +54,7 @@ def files(build: Callable[..., Workbook], emit_to: Any) -> dict[str, Any]:
 
 
 def test_recalculated_values_are_pythons_doubles(engine: Engine, files: dict[str, Any]) -> None:
-    """In Gnumeric's long doubles they are within the bound."""
+    """Gnumeric computes in long doubles: its values are within the rounding bound."""
     result = engine.recalculate_many([file.path for file in files.values()])
     for (name, file), values in zip(files.items(), result, strict=True):
         bound = file.book.rounding if engine.long_doubles else 0.0
@@ -64,7 +65,7 @@ def test_recalculated_values_are_pythons_doubles(engine: Engine, files: dict[str
 def test_file_holds_the_plan_and_its_values(emitted: Any) -> None:
     assert compare(emitted.book.cells, stored(emitted.path)) == []
     content = stored(emitted.path, formulas=True)
-    formulas = {place: cell.formula for place, cell in emitted.book.plan.cells() if cell.formula}
+    formulas = {at: cell.formula for at, cell in emitted.book.plan.cells.items() if cell.formula}
     assert {(s, a): f for s, cells in content.items() for a, f in cells.items()} == formulas
 
 
@@ -74,11 +75,11 @@ MATERIALS = (
     "q_Y", "E_t", "HB_ratio", "S_clear", "Y_copper", "L_typ", "k_1", "k_t", "R_t_RHA", "R_t_lower",
     "CV_PV", "d_min", "d_max", "D_mean", "observed_ratio", "V_to",
 )  # fmt: skip
-"""Inputs that belong to no case: each is typed as 0.8 to 1.25 times the report's."""
+"""Inputs that belong to no case; each is typed as 0.8 to 1.25 times the report's number."""
 
 
 def random_cases(seed: int) -> tuple[Impact, Impact]:
-    """Two cases for the report's workbook, with a step that needs one to all of its rows."""
+    """Return two cases for the report's workbook, with a time step for which its rows suffice."""
     draw = Random(seed).uniform
     while True:
         low = Impact(
@@ -86,13 +87,13 @@ def random_cases(seed: int) -> tuple[Impact, Impact]:
             radius=draw(1e-6, 2e-5),
             particle_density=draw(1e3, 2e4),
             target_density=draw(1e3, 2e4),
-            # A label joins beta to a text, where Gnumeric may show digits of a long double: eighths
-            # are the same in all.
+            # A label contains beta, of which Gnumeric may show the digits of a long double. Eighths
+            # look the same in all engines.
             beta=round(draw(8, 64)) / 8,
             flow_stress=draw(1e8, 2e9),
             stop_velocity=draw(0.0, 20.0),
         )
-        # The mean velocity is about half that of the impact: about twice so many steps until rest.
+        # The mean velocity is about half the impact velocity, which doubles the number of steps.
         step = final_depth(*low.motion.values()) / low.velocity / draw(0.5, 180.0)
         cases = replace(low, step=step), replace(low, step=step, beta=round(draw(8, 64)) / 8)
         longest = (run(replace(case, step=dt)).steps for case in cases for dt in (step, 5e-10))
@@ -100,35 +101,31 @@ def random_cases(seed: int) -> tuple[Impact, Impact]:
             return cases
 
 
-def typed_inputs(build: Callable[..., Workbook], seed: int) -> tuple[dict[str, Value], float]:
-    """What the report's workbook must hold, by key, once random numbers were typed into it.
+def typed_inputs(
+    build: Callable[..., Workbook], seed: int, monkeypatch: pytest.MonkeyPatch
+) -> tuple[dict[str, Value], float]:
+    """Return the values of the report's workbook after random numbers are typed, and its bound.
 
-    It is what the workbooks hold that are written for such a case and a report with such numbers,
-    but for what they tell apart from those typed, such as whose an input is. And their bound.
+    They are the values of a workbook written for a report with these cases and numbers, except for
+    texts that say whether an input is the report's, and for runs that are not live.
     """
     draw, ledger = Random(seed + 1).uniform, LEDGER
-    sources = {name: x["source"] for of in tables()["inputs"].values() for name, x in of.items()}
+    sources = {name: x["source"] for of in TABLES["inputs"].values() for name, x in of.items()}
     for source in map(sources.__getitem__, MATERIALS):
         number = float(LEDGER.value(source) / to_si(LEDGER.claims[source].unit))
         ledger = ledger.misprint(source, f"{number * draw(0.8, 1.25):.3f}")
-    values: dict[str, Value] = {}
-    bounds = []
-    for slug, case in zip(("low", "high"), random_cases(seed), strict=True):
-        fine, coarse = (
-            build(replace(case, step=step), rows=400, ledger=ledger) for step in (case.step, 5e-10)
-        )
-        for key, value in coarse.values.items():
-            own = re.match(r"(overview\.)?case\.", key)
-            values |= {key.replace("case", f"{slug}_coarse"): value} if own else {}
-        for key, value in fine.values.items():
-            key = re.sub(r"(?<![^.])case(?=\.)", slug, key)
-            values[re.sub(r"^(.*\.)?(beta|R_t)(?=$|\.)", rf"\1\2_{slug}", key)] = value
-        bounds += [fine.rounding, coarse.rounding]
-    told = re.compile(
+    # Sheets are named for their beta, so that the ledger's addresses do not fit.
+    unaddressed = [msgspec.structs.replace(claim, workbook=None) for claim in ledger.claim]
+    ledger = msgspec.structs.replace(ledger, claim=unaddressed)
+    for name, case in zip(("BETA_3", "BETA_5"), random_cases(seed), strict=True):
+        monkeypatch.setattr(workbook, name, case)
+    book = build(rows=400, ledger=ledger)
+    not_live = re.compile(
         r"convergence\.(?!in_use)|.*\.(check|renamed)|inputs\.(changed|message)"
         r"|overview\.(inputs_changed|\w+\.message)"
     )
-    return {key: value for key, value in values.items() if not told.match(key)}, max(bounds)
+    live = {key: value for key, value in book.values.items() if not not_live.match(key)}
+    return live, book.rounding
 
 
 @pytest.mark.parametrize(
@@ -141,10 +138,11 @@ def test_typed_inputs_recalculate_to_pythons_doubles(
     build: Callable[..., Workbook],
     record: Record,
     tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
     seeds: range,
 ) -> None:
     plan, findings = emitted.book.plan, findings_of(record, "published", LEDGER)
-    expected = [typed_inputs(build, seed) for seed in seeds]
+    expected = [typed_inputs(build, seed, monkeypatch) for seed in seeds]
     typed = [{k: v for k, v in of.items() if k.endswith(".typed")} for of, _ in expected]
     paths = [emitted.typed(cells, tmp_path / f"{n}.xlsx") for n, cells in enumerate(typed)]
     for (right, bound), result in zip(expected, engine.recalculate_many(paths), strict=True):
@@ -159,7 +157,7 @@ def test_typed_inputs_recalculate_to_pythons_doubles(
 
 
 def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(emitted: Any) -> None:
-    """Errors of three times the bound: of the largest of a column, or of the number alone."""
+    """The planted errors are three times the bound, relative to the largest number of a column."""
     book, result = emitted.book, usable("gnumeric").recalculate(emitted.path)
     assert compare(book.cells, result, tolerances(book.plan, book.cells)) != []
     assert compare(book.cells, result, tolerances(book.plan, book.cells, book.rounding / 20)) == []
@@ -180,7 +178,7 @@ def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(emit
 
 
 def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
-    """A step in ns, divided by 1e9, is not always the double that was asked for."""
+    """No step in ns, divided by 1e9, may give exactly the double that was asked for."""
 
     def reachable(step: float) -> list[float]:
         typed = step * 1e9
@@ -194,12 +192,12 @@ def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
     assert values["case.final_depth"] == run(replace(BETA_5, step=content)).final_depth
 
 
-# What the workbook says once somebody works with it
+# What the workbook says after something is typed
 
 KEPT = Path(__file__).with_name("says.txt").read_text("utf-8").split("\n$ ")[1:]
 TYPED = {case.partition("\n")[0]: case.partition("\n")[2].strip("\n") for case in KEPT}
-"""What is typed, by the name of the input and in its unit, or over the cell in use or one of a
-key -> what then stands where."""
+"""What is typed (numbers for inputs, by name and in the unit of their cells, or "over" a formula's
+cell) -> the texts that then stand in the workbook, with the keys of their cells."""
 FOR_ALL = (
     "nothing", "V_impact = nothing", "R_p = eleven", "HB_ratio = nothing",
     "over high.row.depth[40] = 3.9e-06",
@@ -207,7 +205,7 @@ FOR_ALL = (
     "over R_p = eleven", "from = report, over R_t_high = 2e9, over M_p = 5e-11",
     "from = report, V_impact = 600.0, rho_t = 0.0, beta_high = 4.0",
 )  # fmt: skip
-"""What every program is given; the fastest is given all."""
+"""What is typed for every program; all the rest is typed only for the fastest."""
 
 SHOWN = re.compile(
     r"(overview|inputs|low|high|low_coarse|high_coarse|convergence|figure_\d)\.(?!.*(typed|row))[^\[]*"
@@ -217,7 +215,7 @@ COUNTED = re.compile(r".*\b(trust|steps|\w*unusable|\w*changed|\w*none|same\.\w+
 
 
 FAILING = {"frank-zook-rha", "frank-zook-stainless"}
-"""What is not as printed with the report's own inputs."""
+"""Claims that are not as printed with the report's own inputs."""
 
 
 @dataclass(frozen=True)
@@ -235,8 +233,8 @@ class Page:
         computed = [claim.id for claim in LEDGER.claims.values() if claim.workbook]
         return {name for name in computed if self[f"audit.{name}.verdict"] == verdict}
 
-    def told(self, usual: "Page | None") -> str:
-        """Each text, and what it is told of; but for numbers, and what is as usual."""
+    def described(self, usual: "Page | None") -> str:
+        """Return each text, and number of `COUNTED`, with its cells, unless it is as usual."""
         cells: dict[str, list[str]] = {}
         for key in filter(SHOWN.fullmatch, self.emitted.book.values):
             value, number = self[key], not isinstance(self[key], str)
@@ -257,7 +255,7 @@ class Page:
 def pages(
     request: pytest.FixtureRequest, emitted: Any, tmp_path_factory: pytest.TempPathFactory
 ) -> dict[str, Page]:
-    """The workbook with each of these typed, recalculated."""
+    """The recalculated workbook, by what was typed."""
     folder = tmp_path_factory.mktemp("typed")
     names = list(TYPED) if request.param == "formualizer" else FOR_ALL
     paths = []
@@ -274,18 +272,18 @@ def pages(
 
 
 def test_what_the_workbook_says(pages: dict[str, Page]) -> None:
-    """One test for each program, which recalculates all the files once."""
+    """For each program in one test, since it recalculates all files at once."""
     report = pages["nothing"]
     for name, page in pages.items():
-        in_row = "row" in name and name.endswith("text")  # which spoils the rows after it
+        in_row = "row" in name and name.endswith("text")  # makes errors of the rows below it
         assert bool([*page.errors]) == in_row, name
-        assert page.told(None if page is report else report) == TYPED[name], name
-        # What is not computed is called so, and not wrong.
+        assert page.described(None if page is report else report) == TYPED[name], name
+        # What is not computed is not called wrong.
         assert page.verdicts(OTHERWISE) <= FAILING or not page["inputs.unusable"], name
         assert page["audit.none"] == len(page.verdicts(NOT_COMPUTED)), name
         about_craters = name in ("CV_PV = 0.6", "HB_ratio = nothing")
         assert page["high.depth_um"] == report["high.depth_um"] or not about_craters
-    # The switch brings the report's inputs back.
+    # With the switch, the workbook is again that of the report's inputs.
     switched = pages[FOR_ALL[-1]]
     another = {f"inputs.{name}.typed" for name in ("V_impact", "rho_t", "beta_high")}
     of_switch = {"inputs.from", "inputs.taken", "inputs.message"}
@@ -310,7 +308,7 @@ def test_a_given_resistance_is_called_so_until_that_of_the_report_is_taken(
 
 
 def test_blank_inputs_leave_no_error_and_no_false_verdict(emitted: Any, tmp_path: Path) -> None:
-    """Every sixth input is left blank, so that each formula lacks one of its own here or there."""
+    """Every sixth input is left blank, beginning in turn with each of the first six."""
     names, paths = [key for key in emitted.book.values if key.endswith(".typed")], []
     for first in range(6):
         blank = dict.fromkeys(names[first::6])
