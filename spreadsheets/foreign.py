@@ -355,7 +355,7 @@ class _Reader:
 
 
 class _Tree(ET.TreeBuilder):
-    """The XML tree of a part; elements named in `takers` are handed over at their end, and emptied."""
+    """The XML tree of a part; at its end, an element with a taker is given to it and emptied."""
 
     def __init__(self, **takers: Callable[[ET.Element], object]) -> None:
         super().__init__()
