@@ -477,8 +477,6 @@ def _without_ends(formula: Formula, book: Book) -> Formula:
     The engine would find a blank cell at the end of such a range. Only the second argument of a
     lookup is cut: other readers of a range may count its blanks.
     """
-    if not any(piece.text in _LOOKUPS for piece in formula.pieces):
-        return formula
     calls = [("", 1)]  # open functions and brackets, each with the number of its argument
     pieces = []
     for piece in formula.pieces:
@@ -489,9 +487,9 @@ def _without_ends(formula: Formula, book: Book) -> Formula:
             calls.pop()
         elif piece.text == ",":
             calls[-1] = function, argument + 1
-        area = piece.area if function in _LOOKUPS and argument == 2 else None
-        searched = _searched(area, function, book) if area and area.cells > 1 else piece.area
-        pieces.append(piece._replace(area=searched))
+        elif piece.area and function in _LOOKUPS and argument == 2:
+            piece = piece._replace(area=_searched(piece.area, function, book))
+        pieces.append(piece)
     return replace(formula, pieces=tuple(pieces))
 
 
@@ -499,8 +497,7 @@ def _searched(area: Area, function: str, book: Book) -> Area:
     """An area cut after the last cell that is not blank in the column, or row, that is searched."""
     cells = book.sheets[area.sheet]
     _, top, left, bottom, right = _filled(area, book)
-    is_tall = bottom - top >= right - left
-    if function == "VLOOKUP(" or (function != "HLOOKUP(" and is_tall):
+    if function == "VLOOKUP(" or (function != "HLOOKUP(" and bottom - top >= right - left):
         while bottom > top and (bottom, left) not in cells:
             bottom -= 1
     else:

@@ -18,7 +18,7 @@ from replication.check.table import address
 from replication.check.words import INPUTS, count, share, unit_text
 from replication.check.workbook import Check
 from replication.reading import printable
-from replication.text import aligned, with_unit
+from replication.text import aligned, quantity, with_unit
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
@@ -373,7 +373,8 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
         ],
         "sheets": [_drawn(name, differences, calculation) for name in sheets if name in marked],
     }
-    filters = {"safe": safe, "contents": contents, "unit": written}
+    filters = {"safe": safe, "contents": contents, "unit": written, "quantity": quantity,
+               "known_by": _known_by}  # fmt: skip
     return page.filled("replication.check", "page.html.j2", parts, filters)
 
 

@@ -67,7 +67,7 @@ def cases() -> dict[str, dict[str, Edits]]:
 
 
 def _edit(text: str) -> tuple[str, str]:
-    """Split a change into its cell, whose sheet may have blanks in its name, or word; and its text."""
+    """Split a change into a cell (of a sheet whose name may have blanks) or word, and a text."""
     cell = re.match(r"(?!map|before|stored)(((?! =).)+!)?[A-Z]+\d+(:\d*)*(?= |$)", text)
     word = cell[0] if cell else text.partition(" ")[0]
     return word, text[len(word) + 1 :]
