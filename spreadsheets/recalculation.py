@@ -94,11 +94,11 @@ class Area(NamedTuple):
         inside = self.top <= row <= self.bottom and self.left <= column <= self.right
         return sheet == self.sheet and inside
 
-    def overlaps(self, another: "Area") -> bool:
+    def overlaps(self, area: "Area") -> bool:
         """Whether any cell lies in both areas."""
-        rows = self.top <= another.bottom and another.top <= self.bottom
-        columns = self.left <= another.right and another.left <= self.right
-        return self.sheet == another.sheet and rows and columns
+        rows = self.top <= area.bottom and area.top <= self.bottom
+        columns = self.left <= area.right and area.left <= self.right
+        return self.sheet == area.sheet and rows and columns
 
 
 class Piece(NamedTuple):
@@ -185,7 +185,7 @@ _REFERENCES = (  # a cell or some, whole columns, whole rows
 
 
 class _Tokenizer(Tokenizer):
-    SN_RE = re.compile(r"(?:\d+\.?\d*|\.\d+)[Ee]$")  # type: ignore[misc]  # there it is final
+    SN_RE = re.compile(r"(?:\d+\.?\d*|\.\d+)[Ee]$")  # type: ignore[misc]  # final in openpyxl
     """What precedes the sign of an exponent: openpyxl's own misses 0.2E-9 and 22E-6."""
 
 
@@ -261,12 +261,12 @@ class _Reader:
         if sheet is None or last > LAST_ROW or rightmost > LAST_COLUMN:
             return None
         area = Area(sheet, first, leftmost, last, rightmost)
-        sheet_here, *here = self.place
+        own_sheet, *own_cell = self.place
         steps = [
             str(number) if end.startswith("$") else f"[{number - start}]"
-            for end, number, start in zip(ends, numbers, here * 2, strict=True)
+            for end, number, start in zip(ends, numbers, own_cell * 2, strict=True)
         ]
-        shape = "" if sheet == sheet_here else f"{sheet}!"
+        shape = "" if sheet == own_sheet else f"{sheet}!"
         shape += f"R{steps[0]}C{steps[1]}"
         shape += "" if area.cells == 1 else f":R{steps[2]}C{steps[3]}"
         return Piece("area", match[0], area, shape)
@@ -349,10 +349,10 @@ class Calculation:
     @cached_property
     def named(self) -> dict[Position, str]:
         """The cells that have a defined name, with that name."""
-        unnamed, here = replace(self.book, names={}), (next(iter(self.book.sheets)), 1, 1)
+        unnamed, corner = replace(self.book, names={}), (next(iter(self.book.sheets)), 1, 1)
         names = {}
         for name, meaning in self.book.names.items():
-            areas = parse(f"={meaning}", here, unnamed).areas
+            areas = parse(f"={meaning}", corner, unnamed).areas
             if len(areas) == 1 and areas[0].cells == 1:
                 names[areas[0].corner] = name.rpartition("!")[2]
         return names
@@ -373,10 +373,10 @@ class Calculation:
         for place in self.formulas:
             stack = [] if place in started else [(place, waiting(place))]
             while stack:
-                here, before = stack[-1]
-                started.add(here)
-                if (first := next(before, None)) is None:
-                    order[here] = len(order)
+                current, precedents = stack[-1]
+                started.add(current)
+                if (first := next(precedents, None)) is None:
+                    order[current] = len(order)
                     stack.pop()
                 else:
                     stack.append((first, waiting(first)))

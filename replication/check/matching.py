@@ -195,8 +195,8 @@ def _matched(
     """Match lines, in their order, by their contents: old lines to new ones.
 
     Changed lines between matched ones are matched if they are as many as before. So is the first
-    line after deleted ones, whose references to these are lost. Beyond `most` changed lines, none
-    are compared.
+    line after deleted ones, whose references to these are lost. More than `most` changed lines are
+    not compared with each other.
     """
     a, b = list(old), list(new)
     lines = [old[i] for i in a], [new[i] for i in b]

@@ -129,13 +129,13 @@ def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str,
         unit, conversion = INPUT_UNITS[name][0] if simple else r.choice(INPUT_UNITS[name])
         factor = float(conversion[1:] or 1)
         own = values[name] * factor if conversion[:1] == "/" else values[name] / factor
-        (label, here), text = at(i), r.choice(LABELS[name])
+        (label, cell), text = at(i), r.choice(LABELS[name])
         f.put(sheet, label, text if simple or beside else f"{text} [{unit}]")
         if beside and not simple:
             f.put(sheet, f"{letters(col + 2)}{row + i}", unit)
-        f.put(sheet, here, float(f"{own:.12g}"))
-        f.inputs[name] = place(sheet, here)
-        absolute = absolute_coordinate(here)
+        f.put(sheet, cell, float(f"{own:.12g}"))
+        f.inputs[name] = place(sheet, cell)
+        absolute = absolute_coordinate(cell)
         si[name] = f"({absolute}{conversion})" if conversion else absolute
     label, mass = at(7)
     f.put(sheet, label, "mass [kg]")

@@ -244,13 +244,13 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """A head that says millimetres over metres, or micrometres."""
     sheet, row, column = f.where[DEPTH, 1]
     for back in range(2, 5):
-        here = (sheet, row, column - back) if _across(f) else (sheet, row - back, column)
-        text = str(f.cells.get(here, ""))
+        head = (sheet, row, column - back) if _across(f) else (sheet, row - back, column)
+        text = str(f.cells.get(head, ""))
         if text == "m":
-            return {here: "mm"}
+            return {head: "mm"}
         for old, new in () if text.startswith("=") else UNITS:
             if re.search(rf"{re.escape(old)}(?!\w)", text):
-                return {here: re.sub(rf"{re.escape(old)}(?!\w)", new, text)}
+                return {head: re.sub(rf"{re.escape(old)}(?!\w)", new, text)}
     return None
 
 

@@ -137,8 +137,8 @@ def add_column(
         f.put(sheet, f"{line}{table.heads}", head)
     steps = calculated(f.impact).rows
     for k in range(table.steps + 1):
-        here, before = table.place(sheet, line, k), table.place(sheet, line, k - 1)
-        own, previous = (letters(at[2]) if table.across else at[1] for at in (here, before))
+        cell, before = table.place(sheet, line, k), table.place(sheet, line, k - 1)
+        own, previous = (letters(at[2]) if table.across else at[1] for at in (cell, before))
         row = {}
         if k < len(steps):
             row = dict(zip(("t", "v0", "x", "a", "v1"), steps[k], strict=True))
@@ -146,9 +146,9 @@ def add_column(
         text = zero if k == 0 else first if k == 1 and first else rest
         content = filled(text, r=own, p=previous, k=k, **row)
         if content is not None:
-            f.cells[here] = content
+            f.cells[cell] = content
             if role and table.own and k <= f.steps:
-                f.where[role, k] = here
+                f.where[role, k] = cell
 
 
 def filled(text: str, **values: object) -> Content:
@@ -202,11 +202,11 @@ def relocate(f: Foreign, to: Callable[[int, int], tuple[int, int]]) -> None:
 
 def change(f: Foreign, address: str, text: str) -> None:
     """Give cells other contents, as `contents` reads them; an empty text clears them."""
-    for here, content in contents(f, address, text):
+    for cell, content in contents(f, address, text):
         if content is None:
-            f.cells.pop(here, None)
+            f.cells.pop(cell, None)
         else:
-            f.cells[here] = content
+            f.cells[cell] = content
 
 
 def contents(f: Foreign, address: str, text: str) -> Iterator[tuple[Place, Content]]:

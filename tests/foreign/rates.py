@@ -82,8 +82,8 @@ def _found(spoiled: Planted, done: Check) -> bool:
     if not any(depth and math.isclose(depth, right, rel_tol=1e-9) for depth in depths):
         return False
     accused = [done.first] if spoiled.status else done.differences
-    said = any(d and d.kind == spoiled.kind and d.place in spoiled.cells for d in accused)
-    return said and (done.first is not None) == spoiled.status
+    is_named = any(d and d.kind == spoiled.kind and d.place in spoiled.cells for d in accused)
+    return is_named and (done.first is not None) == spoiled.status
 
 
 WRITERS = ("openpyxl", "like Excel", "LibreOffice .xlsx", "LibreOffice .ods", "LibreOffice .xls")

@@ -212,15 +212,15 @@ def said(title: str, book: Book) -> Iterator[str]:
         return
     yield f"* {title} -> {int(not record['clean'])}"
     yield f"  {_shown(record['verdict'])}"
-    told = [
+    shown = [
         d
         for d in record["differences"]
         if d["kind"] != "printed number" and "no value is stored" not in d["explanation"]
     ]
-    for d in told[:MOST]:
+    for d in shown[:MOST]:
         yield f"  {'first: ' if d == record['first'] else ''}{_difference(d)}"
-    if len(told) > MOST:
-        yield f"  and {len(told) - MOST} more"
+    if len(shown) > MOST:
+        yield f"  and {len(shown) - MOST} more"
     for depth in record["final_depths"]:
         own, right = (_um(depth[name]) for name in ("found", "expected"))
         why = f", by {depth['explained_by']} alone" if depth["explained_by"] else ""
@@ -232,12 +232,11 @@ def said(title: str, book: Book) -> Iterator[str]:
         yield f"  {len(claims) - len(unmet)} of {len(claims)} printed numbers{not_so}"
     before = usual(book.f.name) * len(record["taken"])
     for taken, expected in zip(_taken(record), before, strict=False):
-        here = {entry.partition(" ")[0] for entry in taken}
-        gone = [role for entry in expected[1:] if (role := entry.partition(" ")[0]) not in here]
-        another = [entry for entry in taken if entry not in expected]
-        another += [f"no {role}" for role in gone]
-        if another:
-            yield f"  taken: {', '.join(another)}"
+        roles = {entry.partition(" ")[0] for entry in taken}
+        missing = [role for entry in expected[1:] if (role := entry.partition(" ")[0]) not in roles]
+        unusual = [entry for entry in taken if entry not in expected]
+        if unusual or missing:
+            yield f"  taken: {', '.join([*unusual, *(f'no {role}' for role in missing)])}"
 
 
 @cache
