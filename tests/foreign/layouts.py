@@ -12,7 +12,12 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from openpyxl.utils.cell import column_index_from_string, coordinate_to_tuple, get_column_letter
+from openpyxl.utils.cell import (
+    column_index_from_string,
+    coordinate_to_tuple,
+    get_column_letter,
+    range_boundaries,
+)
 
 from replication.models.impact import Impact
 from replication.models.sheet import Sheet, run
@@ -162,19 +167,16 @@ def filled(text: str, **values: object) -> Content:
 
 def insert(f: Foreign, at: str, count: int) -> None:
     """Insert rows before a row, or columns before a column."""
-    rows = int(at) if at.isdigit() else 10**9
-    columns = 10**9 if at.isdigit() else column_index_from_string(at)
-    relocate(
-        f, lambda row, column: (row + count * (row >= rows), column + count * (column >= columns))
-    )
+    if at.isdigit():
+        move(f, at, count, 0)
+    else:
+        move(f, f"{at}1:ZZ99999", 0, count)
 
 
 def move(f: Foreign, cells: str, down: int, right: int) -> None:
     """Cut an area, or all cells from a row on, and paste it elsewhere, over what is there."""
-    ends = [
-        place("", end) for end in (f"A{cells}:ZZ99999" if cells.isdigit() else cells).split(":")
-    ]
-    (_, top, left), (_, bottom, last) = ends[0], ends[-1]
+    area = f"A{cells}:ZZ99999" if cells.isdigit() else cells
+    left, top, last, bottom = range_boundaries(area)
 
     def to(row: int, column: int) -> tuple[int, int]:
         inside = top <= row <= bottom and left <= column <= last
