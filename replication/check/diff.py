@@ -1,18 +1,19 @@
-"""Two workbooks side by side: what was inserted, removed or moved, then formulas, then values.
+"""Compare two workbooks: first what was inserted, removed or moved, then formulas, then values.
 
-Rows and columns are aligned by what their cells are, not by what they hold: a heading by its text,
-a formula by its operations, a number by being one. So a changed input is one difference, an
-inserted row is one, and each formula is compared with where its references have gone. Where cells
-can be matched in several ways, the one that leaves the fewest differences is told.
+Rows and columns are aligned by the kind of their cells, not by their values: a heading counts by
+its text, a formula by its operations, a number by being a number. So a changed input is one
+difference, an inserted row is one, and each formula is compared after its references have followed
+the move. Where cells can be matched in several ways, the one that leaves the fewest differences is
+reported.
 """
 
 import math
 import re
-from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 from itertools import groupby, product
+from operator import itemgetter
 from pathlib import Path
 from unicodedata import normalize
 
@@ -23,28 +24,28 @@ from replication.check.matching import Cell, Shifts, pairings, same_sheets, touc
 from replication.check.table import runs, span
 from replication.check.words import count
 from spreadsheets.foreign import Position, Value, read
-from spreadsheets.recalculation import Area, Calculation, Formula, Piece, calculate, parse
+from spreadsheets.recalculation import Calculation, Formula, Piece, calculate, parse
 
 KINDS = ("added", "removed", "moved", "name", "formula", "value")
-"""What `diff` calls the differences that it finds."""
+"""The kinds of differences that `diff` reports."""
 
 LAST = "only the last digits of the values differ"
 _LAST_DIGITS = 1e-14
-"""Relative distance within which that is said: files may keep 15 of them."""
+"""Relative difference up to which `LAST` is said: some programs store only 15 digits."""
 FOLLOWS = "the values differ, as do "
-"""How it begins where a value follows from another difference."""
+"""How the explanation of a value begins that follows from another difference."""
 
 
 @dataclass(frozen=True)
 class Tolerance:
-    """How far apart two numbers may be and still be called equal; any of them suffices."""
+    """How far apart two numbers may be and still count as equal; one criterion is enough."""
 
     ulp: int = 0
     relative: float = 0.0
     digits: int | None = None
 
     def equal(self, a: float, b: float) -> bool:
-        """Whether two numbers are.
+        """Whether two numbers count as equal.
 
         >>> Tolerance(digits=3).equal(7.6696, 7.6701), Tolerance(ulp=1).equal(1.0, 1.0 + 2**-52)
         (True, True)
@@ -55,27 +56,27 @@ class Tolerance:
             return True
         if self.ulp and abs(a - b) <= self.ulp * math.ulp(max(abs(a), abs(b))):
             return True
-        if self.digits is None or 0 in (a, b):  # zero is no other number to so many digits
+        if self.digits is None or 0 in (a, b):  # zero has no significant digits
             return False
-        texts = [f"{number:.{self.digits - 1}e}" for number in (a, b)]
-        return texts[0] == texts[1] or self._rounds(a, b) or self._rounds(b, a)
+        texts = {f"{number:.{self.digits - 1}e}" for number in (a, b)}
+        return len(texts) == 1 or _rounds(a, b, self.digits) or _rounds(b, a, self.digits)
 
-    def _rounds(self, exact: float, rounded: float) -> bool:
-        """Whether a number is another one rounded, ties either way.
 
-        The other may itself differ in its last bits.
-        """
-        digits = self.digits or 1
-        half = Decimal(f"5e{Decimal(exact).adjusted() - digits}")
-        near = abs(Decimal(repr(exact)) - Decimal(repr(rounded)))
-        is_rounded = float(f"{rounded:.{digits - 1}e}") == rounded
-        return is_rounded and near <= half + min(4 * Decimal(math.ulp(exact)), half / 10)
+def _rounds(exact: float, rounded: float, digits: int) -> bool:
+    """Whether `rounded` is `exact` rounded to so many digits, with ties going either way.
+
+    `exact` may be off in its own last bits, so that a tie is not quite one.
+    """
+    half = Decimal(f"5e{Decimal(exact).adjusted() - digits}")
+    distance = abs(Decimal(repr(exact)) - Decimal(repr(rounded)))
+    is_rounded = float(f"{rounded:.{digits - 1}e}") == rounded
+    return is_rounded and distance <= half + min(4 * Decimal(math.ulp(exact)), half / 10)
 
 
 def diff(
     a: Path, b: Path, *, values_only: bool = False, allowed: Tolerance | None = None
 ) -> "Comparison":
-    """Compare two workbooks. Raises WorkbookError for what cannot be read."""
+    """Compare two workbooks. Raises WorkbookError for a file that cannot be read."""
     comparison = Comparison(calculate(read(a)), calculate(read(b)), allowed or Tolerance())
     comparison.layout()
     formulas: _Differing = {}
@@ -90,25 +91,26 @@ def diff(
 
 
 class Comparison:
-    """What `coldspray diff` has found, and where: causes in order of calculation, then the rest.
+    """The result of `coldspray diff`: causes in order of calculation, then what follows from them.
 
-    `where` is where each cell of the first workbook is in the second. Places of differences are
-    those of the second workbook, if it has them.
+    `new_place` maps each cell of the first workbook to the same cell in the second. A difference is
+    placed in the second workbook, or in the first if the second has no such cell.
     """
 
     def __init__(self, before: Calculation, after: Calculation, tolerance: Tolerance) -> None:
         self.before, self.after, self.tolerance = before, after, tolerance
-        self.matched({})
+        self.match({})
         self.differences: list[Difference] = []
 
-    def matched(self, where: Mapping[Position, Position]) -> None:
-        """Take cells of the two workbooks as the same."""
-        self.where, self.there, self.shifts = {**where}, set(where.values()), Shifts(where)
+    def match(self, new_place: Mapping[Position, Position]) -> None:
+        """Take these cells of the two workbooks as the same."""
+        self.new_place, self.shifts = {**new_place}, Shifts(new_place)
+        self.matched = set(new_place.values())
 
     def add(
         self, kind: str, cells: Sequence[Position], was: Value | None, now: Value | None, text: str
     ) -> None:
-        """Add a difference at the first of some cells; layout first, last digits last."""
+        """Add a difference at the first of some cells; layout ranks first, last digits last."""
         place, sheets = cells[0], list(self.after.book.sheets)
         rank: tuple[float, ...] = (0, sheets.index(place[0]) if place[0] in sheets else 0)
         if kind in ("formula", "value"):  # typed cells, then formulas in order of calculation
@@ -120,208 +122,221 @@ class Comparison:
     # ---- where each cell has gone
 
     def layout(self) -> None:
-        """Match the sheets, then the cells of each."""
-        sheets = same_sheets(self.before, self.after)
+        """Match the sheets, then the cells of each pair of sheets."""
+        partners = same_sheets(self.before, self.after)
         for name in self.before.book.sheets:
-            if name not in sheets:
+            if name not in partners:
                 self.add("removed", [(name, 1, 1)], name, None, "the sheet is gone")
         for name in self.after.book.sheets:
-            if name not in sheets.values():
+            if name not in partners.values():
                 self.add("added", [(name, 1, 1)], None, name, "the sheet is new")
-        for name, partner in sheets.items():
+        for name, partner in partners.items():
             if name != partner:
                 self.add("moved", [(partner, 1, 1)], name, partner, "the sheet is renamed")
             self.align(name, partner)
-        self.matched(self.where)
+        self.match(self.new_place)
 
     def align(self, name: str, partner: str) -> None:
-        """Match the cells of two sheets in the way that leaves the fewest that differ."""
+        """Match the cells of two sheets in the way that leaves the fewest differences."""
         old, new = self.before.book.sheets[name], self.after.book.sheets[partner]
         least = math.inf
         for pairs in pairings(self.before, name, self.after, partner):
             trial = Comparison(self.before, self.after, self.tolerance)
-            trial.matched({(name, *cell): (partner, *there) for cell, there in pairs.items()})
+            trial.match({(name, *cell): (partner, *to) for cell, to in pairs.items()})
             trial.moves(name, partner)
-            trial.left_over("removed", name, old.keys() - pairs.keys())
-            trial.left_over("added", partner, new.keys() - set(pairs.values()))
+            trial.unmatched("removed", name, old.keys() - pairs.keys())
+            trial.unmatched("added", partner, new.keys() - set(pairs.values()))
             if (size := trial.size()) < least:
                 best, least = trial, size
             if least <= 1:  # no other way can leave fewer
                 break
-        self.where |= best.where
+        self.new_place |= best.new_place
         self.differences += best.differences
 
     def size(self) -> int:
-        """How many cells differ, but for numbers; a text for another is one gone and one new."""
-        texts = [now for _, now, _ in self.differing(self.values).values()]
+        """How many cells differ, not counting numbers that only have another value.
+
+        A cell whose text is replaced counts twice: as one removed and one added.
+        """
+        contents = [now for _, now, _ in self.differing(self.values).values()]
         return (
             sum(1 if d.kind == "moved" else len(d.cells) for d in self.differences)
             + len(self.differing(self.formulas))
-            + 2 * sum(not isinstance(now, float) for now in texts)
+            + 2 * sum(not isinstance(now, float) for now in contents)
         )
 
-    def left_over(self, kind: str, sheet: str, cells: Iterable[Cell]) -> None:
-        """Cells that only one of two sheets has, block by block."""
-        what = "new" if kind == "added" else "gone"
+    def unmatched(self, kind: str, sheet: str, cells: Iterable[Cell]) -> None:
+        """Report cells that only one of two sheets has, block by block."""
+        is_new = kind == "added"
         for block in touching(cells):
             shown: Value | None = span(block)
             if len(block) == 1:
-                cell = (self.after if kind == "added" else self.before).book[sheet, *block[0]]
+                cell = (self.after if is_new else self.before).book[sheet, *block[0]]
                 shown = cell.formula or cell.value
-            was, now = (None, shown) if kind == "added" else (shown, None)
-            are = "is" if len(block) == 1 else "are"
-            text = f"{count(len(block), 'cell')} {are} {what}"
+            was, now = (None, shown) if is_new else (shown, None)
+            verb = "is" if len(block) == 1 else "are"
+            text = f"{count(len(block), 'cell')} {verb} {'new' if is_new else 'gone'}"
             self.add(kind, [(sheet, *cell) for cell in block], was, now, text)
 
-    def moves(self, name: str, sheet: str) -> None:
-        """Cells that stand elsewhere: whole rows and columns of a sheet, or blocks."""
-        groups: dict[Cell, list[Cell]] = {}  # by how far they moved
-        ways: dict[tuple[int, int], set[int]] = {}  # of a row (0) or column (1), and of a new one
-        for (_, *old), (_, *new) in self.where.items():
-            distance = (new[0] - old[0], new[1] - old[1])
-            groups.setdefault(distance, []).append((old[0], old[1]))
+    def moves(self, name: str, partner: str) -> None:
+        """Report cells of a sheet that moved: whole rows and columns first, then blocks."""
+        groups: dict[Cell, list[Cell]] = {}  # cells by how far down and right they moved
+        # How far the cells of each row (0) and column (1) moved, by its old and its new number.
+        by_old: dict[Cell, set[int]] = {}
+        by_new: dict[Cell, set[int]] = {}
+        for (_, *old), (_, *new) in self.new_place.items():
+            shift = (new[0] - old[0], new[1] - old[1])
+            groups.setdefault(shift, []).append((old[0], old[1]))
             for axis in (0, 1):
-                ways.setdefault((axis, old[axis]), set()).add(distance[axis])
-                ways.setdefault((axis + 2, new[axis]), set()).add(distance[axis])
+                by_old.setdefault((axis, old[axis]), set()).add(shift[axis])
+                by_new.setdefault((axis, new[axis]), set()).add(shift[axis])
         whole = {
-            distance: cells
-            for distance, cells in groups.items()
+            shift: cells
+            for shift, cells in groups.items()
             if all(
-                len(ways[axis, cell[axis]]) == len(ways[axis + 2, cell[axis] + distance[axis]]) == 1
-                for cell in cells
-                for axis in (0, 1)
+                len(by_old[axis, cell[axis]]) == len(by_new[axis, cell[axis] + shift[axis]]) == 1
+                for cell, axis in product(cells, (0, 1))
             )
         }
-        for axis, what, show in ((0, "rows", str), (1, "columns", get_column_letter)):
-            lines = {cell[axis]: by[axis] for by, cells in whole.items() for cell in cells}
-            self.lines(name, sheet, lines, what, show)
-        for distance in sorted(groups.keys() - whole.keys() - {(0, 0)}):
-            self.blocks(name, sheet, sorted(groups[distance]), distance)
+        for axis in (0, 1):
+            shifts = {cell[axis]: shift[axis] for shift, cells in whole.items() for cell in cells}
+            self.moved_lines(name, partner, axis, shifts)
+        for shift in sorted(groups.keys() - whole.keys() - {(0, 0)}):
+            self.moved_blocks(name, partner, sorted(groups[shift]), shift)
 
-    def lines(
-        self, name: str, sheet: str, lines: Mapping[int, int], what: str, show: Callable[[int], str]
-    ) -> None:
-        """Rows or columns that stand so much further down or right, each run of them once.
+    def moved_lines(self, name: str, partner: str, axis: int, shifts: Mapping[int, int]) -> None:
+        """Report rows (axis 0) or columns (axis 1) that moved; `shifts` says how far each did.
 
-        Where all took each other's places, two runs are told as one, and more as another order.
+        Lines that moved together are one difference. So are two groups of lines that have changed
+        places, and more than two that are only in another order.
         """
-        grouped = groupby(sorted(lines.items()), key=lambda pair: pair[1])
-        moved = [(by, [old for old, _ in pairs]) for by, pairs in grouped if by]
-        came = {old + by: old for by, run in moved for old in run}
-        in_turn = bool(moved) and came.keys() == set(came.values())
-        if in_turn and len(moved) == 2 and len(moved[0][1]) != len(moved[1][1]):
-            # The longer only gives way.
-            moved, in_turn = [min(moved, key=lambda each: len(each[1]))], False
+        lines, show = (("rows", str), ("columns", get_column_letter))[axis]
+        grouped = groupby(sorted(shifts.items()), key=itemgetter(1))
+        moved = [(shift, [line for line, _ in pairs]) for shift, pairs in grouped if shift]
+        old_number = {line + shift: line for shift, run in moved for line in run}
+        is_reordered = bool(moved) and old_number.keys() == set(old_number.values())
+        if is_reordered and len(moved) == 2 and len(moved[0][1]) != len(moved[1][1]):
+            # The shorter group moved; the longer one only made room for it.
+            moved, is_reordered = [min(moved, key=lambda group: len(group[1]))], False
 
-        def between(run: Sequence[int], by: int = 0) -> str:
-            first, last = (show(end + by) for end in (run[0], run[-1]))
-            return f"{what[:-1]} {first}" if len(run) == 1 else f"{what} {first} to {last}"
+        def shown(run: Sequence[int], shift: int = 0) -> str:
+            first, last = (show(end + shift) for end in (run[0], run[-1]))
+            return f"{lines[:-1]} {first}" if len(run) == 1 else f"{lines} {first} to {last}"
 
-        def tell(at: int, was: str, now: str, text: str) -> None:
-            place = (sheet, at, 1) if what == "rows" else (sheet, 1, at)
+        def report(line: int, was: str, now: str, text: str) -> None:
+            place = (partner, 1, line) if axis else (partner, line, 1)
             self.add("moved", [place], was, now, text)
 
-        if in_turn and len(moved) > 2:
-            every = range(min(came), max(came) + 1)
-            order = ", ".join(show(came.get(at, at)) for at in every)
-            text = f"{between(every)} of {name!r} are in another order"
-            tell(every[0], between(every), f"{what} {order}", text)
-        elif in_turn:
-            here, there = (between(run) for _, run in moved)
-            text = f"{here} and {there} of {name!r} have changed places"
-            tell(min(came), here, there, text)
-        for by, run in () if in_turn else moved:
-            was, now = between(run), between(run, by)
-            are = "is" if len(run) == 1 else "are"
-            tell(run[0] + by, was, now, f"{was} of {name!r} {are} now {now}")
+        if is_reordered and len(moved) > 2:
+            every = range(min(old_number), max(old_number) + 1)
+            order = ", ".join(show(old_number.get(line, line)) for line in every)
+            text = f"{shown(every)} of {name!r} are in another order"
+            report(every[0], shown(every), f"{lines} {order}", text)
+        elif is_reordered:
+            first, second = (shown(run) for _, run in moved)
+            text = f"{first} and {second} of {name!r} have changed places"
+            report(min(old_number), first, second, text)
+        else:
+            for shift, run in moved:
+                was, now = shown(run), shown(run, shift)
+                verb = "is" if len(run) == 1 else "are"
+                report(run[0] + shift, was, now, f"{was} of {name!r} {verb} now {now}")
 
-    def blocks(self, name: str, sheet: str, cells: Sequence[Cell], distance: Cell) -> None:
-        """Cells that moved together: one block, if nothing else stood among them."""
-        for block in [cells] if self.alone(name, cells) else touching(cells):
-            moved = [(row + distance[0], column + distance[1]) for row, column in block]
+    def moved_blocks(self, name: str, partner: str, cells: Sequence[Cell], shift: Cell) -> None:
+        """Report cells that moved together, as one block if nothing else stood among them."""
+        for block in [cells] if self.fill_area(name, cells) else touching(cells):
+            moved = [(row + shift[0], column + shift[1]) for row, column in block]
             was, now = span(block), span(moved)
-            some = "" if self.alone(name, block) else f"{count(len(block), 'cell')} of "
-            text = f"{some}{was} now stand{'' if some else 's'} at {now}"
-            self.add("moved", [(sheet, *c) for c in moved], was, now, text)
+            text = f"{was} now stands at {now}"
+            if not self.fill_area(name, block):
+                text = f"{count(len(block), 'cell')} of {was} now stand at {now}"
+            self.add("moved", [(partner, *cell) for cell in moved], was, now, text)
 
-    def alone(self, name: str, cells: Sequence[Cell]) -> bool:
-        """Whether all that stood in the area of some cells is these cells."""
+    def fill_area(self, name: str, cells: Sequence[Cell]) -> bool:
+        """Whether the smallest area around some cells of the first workbook holds nothing else."""
         sheet = self.before.book.sheets[name]
-        rows, columns = (range(min(each), max(each) + 1) for each in zip(*cells, strict=True))
+        rows, columns = (range(min(axis), max(axis) + 1) for axis in zip(*cells, strict=True))
         area = product(rows, columns) if len(rows) * len(columns) < len(sheet) else sheet
         return len(cells) == sum(r in rows and c in columns and (r, c) in sheet for r, c in area)
 
     # ---- what names stand for, and what the cells hold
 
     def names(self) -> None:
-        """Names that are new, gone, or stand for something else."""
+        """Report names that are new, gone, or stand for something else."""
         books = self.before.book, self.after.book
-        first = [(next(iter(book.sheets)), 1, 1) for book in books]
+        corners = [(next(iter(book.sheets)), 1, 1) for book in books]
         for name, shown in {n.upper(): n for book in books for n in book.names}.items():
             was, now = (book.meanings.get(name) for book in books)
-            meanings = zip((was, now), first, books, strict=True)
-            a, b = (parse(f"={text}", place, book) for text, place, book in meanings)
+            meanings = zip((was, now), corners, books, strict=True)
+            a, b = (parse(f"={text}", corner, book) for text, corner, book in meanings)
             what = "stands for something else"
             if was is None or now is None:
                 what = "is new" if was is None else "is gone"
             elif self.alike(a, b) and _fixed(a) == _fixed(b):
                 continue
-            gone = self.where.get(a.areas[0].corner, first[1]) if a.areas else first[1]
-            place = b.areas[0].corner if b.areas else gone
+            old = self.new_place.get(a.areas[0].corner, corners[1]) if a.areas else corners[1]
+            place = b.areas[0].corner if b.areas else old
             was, now = (text or "not defined" for text in (was, now))
             self.add("name", [place], was, now, f"the name {shown} {what}")
 
     def differing(self, compare: Callable[[Position, Position], "_Differs | None"]) -> "_Differing":
-        """Cells that differ, by their places in the second workbook."""
-        pairs = self.where.items()
+        """The cells that differ, by their places in the second workbook."""
+        pairs = self.new_place.items()
         return {new: differs for old, new in pairs if (differs := compare(old, new))}
 
     def traced(self, values: "_Differing", formulas: "_Differing") -> "_Differing":
-        """Values that differ; where they follow from other differences, that is said."""
+        """The values that differ, each with the other difference that it follows from, if any."""
         removed, added = (
             {cell for d in self.differences if d.kind == kind for cell in d.cells}
             for kind in ("removed", "added")
         )
-        pairs = self.where.items()  # within a tolerance, too
-        differ = {b for a, b in pairs if _value(self.before, a) != _value(self.after, b)}
-        changed, gone = _Cells(added | differ), _Cells(removed)
-        olds, traced = {new: old for old, new in pairs}, dict(values)
+        old_place = {new: old for old, new in self.new_place.items()}
+        # A value that differs within the tolerance may still make others differ beyond it.
+        changed = added | {
+            new
+            for new, old in old_place.items()
+            if _value(self.before, old) != _value(self.after, new)
+        }
+        traced = {}
         for new, (was, now, text) in values.items():
             if text == LAST:
-                continue
-            if new in formulas:
-                text = f"{FOLLOWS}the formulas"
-            elif any(map(changed.touch, self.after.areas(new))) or any(
-                map(gone.touch, self.before.areas(olds[new]))
+                why = ""
+            elif new in formulas:
+                why = "the formulas"
+            elif changed.isdisjoint(self.after.precedents(new)) and removed.isdisjoint(
+                self.before.precedents(old_place[new])
             ):
-                text = f"{FOLLOWS}the cells that they read"
-            traced[new] = was, now, text
+                why = ""
+            else:
+                why = "the cells that they read"
+            traced[new] = was, now, f"{FOLLOWS}{why}" if why else text
         return traced
 
     def group(self, differing: "_Differing", kind: str) -> None:
-        """Differences of one kind, those of neighbouring cells in a column as one.
+        """Add differences of one kind; equal ones in neighbouring cells of a column are one.
 
-        Those in last digits are one.
+        All that differ only in last digits are one.
         """
         every = list(runs({place: text for place, (*_, text) in differing.items()}))
-        told = [run for run in every if differing[run[0]][2] != LAST]
+        groups = [run for run in every if differing[run[0]][2] != LAST]
         last = [place for run in every if differing[run[0]][2] == LAST for place in run]
-        for run in filter(None, (*told, last)):
+        for run in filter(None, (*groups, last)):
             was, now, text = differing[run[0]]
             where = "more" if text == LAST else "after it"
             more = f", also in {count(len(run) - 1, 'cell')} {where}" if len(run) > 1 else ""
             self.add(kind, run, was, now, text + more)
 
     def formulas(self, old: Position, new: Position) -> "_Differs | None":
+        """How two cells differ in their formulas, if they do."""
         a, b = self.before.formulas.get(old), self.after.formulas.get(new)
         texts = self.before.book[old].formula, self.after.book[new].formula
         if a and b:
             if self.alike(a, b):
                 by_name = not any("$" in str(text) for text in texts)
-                but = "one of them by a name" if by_name else "$ fixes others of their references"
+                but = "one of them by a name" if by_name else "$ fixes different references"
                 text = f"the formulas read the same cells, but {but}"
                 return None if _fixed(a) == _fixed(b) else (*texts, text)
-            text = "the text is the same, but what it read is elsewhere now"
+            text = "the text is the same, but it no longer reads the same cells"
             return (*texts, text if texts[0] == texts[1] else "the formulas differ")
         if b:
             return self.before.values.get(old), texts[1], "a formula stands in place of a value"
@@ -335,76 +350,59 @@ class Comparison:
         return len(a.pieces) == len(b.pieces) and all(self.same(p, q) for p, q in pairs)
 
     def same(self, p: Piece, q: Piece) -> bool:
-        """Whether two pieces are the same, and read the same cells, wherever they are now."""
+        """Whether two pieces of formulas are the same, and read the same cells if they read any."""
         if p.kind == q.kind == "number":
             return float(p.text) == float(q.text)
         if p.area is None or q.area is None:
-            texts = [each.text.upper() if each.kind == "function" else each.text for each in (p, q)]
-            return p.kind == q.kind and texts[0] == texts[1]
+            texts = {r.text.upper() if r.kind == "function" else r.text for r in (p, q)}
+            return p.kind == q.kind and len(texts) == 1
         stays = p.area == q.area and p.area.corner in p.area.ends  # no whole column or row
         return all(
-            self.where[old] == new
-            if old in self.where
-            else (stays and new not in self.there)  # gone, or blank as before
+            self.new_place[old] == new
+            if old in self.new_place
+            else (stays and new not in self.matched)  # gone, or blank as before
             or (old not in self.before.values and self.shifts.allow(old, new))
             for old, new in zip(p.area.ends, q.area.ends, strict=True)
         )
 
     def values(self, old: Position, new: Position) -> "_Differs | None":
-        a, b = _value(self.before, old), _value(self.after, new)
+        """How two cells differ in their values, if they do."""
         if old in self.before.unknown or new in self.after.unknown:
-            return None  # not computed: nothing to compare, as the notes say
+            return None  # not computed, so there is nothing to compare: the notes say so
+        a, b = _value(self.before, old), _value(self.after, new)
         if isinstance(a, float) and isinstance(b, float):
             resolution = max(self.before.book.resolution, self.after.book.resolution)
             if self.tolerance.equal(a, b) or abs(a - b) <= resolution:
                 return None
             small = math.isclose(a, b, rel_tol=_LAST_DIGITS)
             return a, b, LAST if small else "the values differ"
-        if isinstance(a, str) and isinstance(b, str) and a != b:
-            return a, b, _unlike(a, b)
-        if type(a) is type(b):
-            return None if a == b else (a, b, "the contents differ")
-        # A text that spells a truth value is none.
+        if type(a) is type(b) and a == b:
+            return None
+        if isinstance(a, str) and isinstance(b, str):
+            return a, b, _how_texts_differ(a, b)
+        # Quotes tell the text 'TRUE' from the truth value.
         a, b = (
-            f"'{x}'" if str(x).upper() in ("TRUE", "FALSE") and isinstance(x, str) else x
-            for x in (a, b)
+            f"'{x}'" if isinstance(x, str) and x.upper() in ("TRUE", "FALSE") else x for x in (a, b)
         )
         return a, b, "the contents differ"
 
 
 _Differs = tuple[Value | None, Value | None, str]
-"""What a cell was, what it is, and how the two differ."""
+"""What a cell held, what it holds now, and how the two differ."""
 _Differing = Mapping[Position, _Differs]
 
 
-class _Cells:
-    """Some cells, column by column."""
-
-    def __init__(self, cells: Iterable[Position]) -> None:
-        self.rows: dict[tuple[str, int], list[int]] = {}
-        for sheet, row, column in sorted(cells):
-            self.rows.setdefault((sheet, column), []).append(row)
-
-    def touch(self, area: Area) -> bool:
-        """Whether one of them lies in an area."""
-        return any(
-            bisect_left(rows, area.top) < bisect_right(rows, area.bottom)
-            for (sheet, column), rows in self.rows.items()
-            if sheet == area.sheet and area.left <= column <= area.right
-        )
-
-
 def _value(calculation: Calculation, place: Position) -> Value | None:
-    """The value stored; the computed one where none is."""
+    """The stored value of a cell, or the computed one where none is stored."""
     stored = calculation.book[place].value
     value = calculation.values.get(place) if stored is None else stored
     return None if value == "" else value
 
 
-def _unlike(a: str, b: str) -> str:
-    """That two texts differ, and in which characters if nobody can see it.
+def _how_texts_differ(a: str, b: str) -> str:
+    """Say that two texts differ, and by which characters where they look alike.
 
-    >>> _unlike("\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m")
+    >>> _how_texts_differ("\N{MICRO SIGN}m", "\N{GREEK SMALL LETTER MU}m")
     'the texts look alike: U+00B5 is now U+03BC'
     """
     if len({" ".join(normalize("NFKC", text).split()) for text in (a, b)}) > 1:
@@ -416,5 +414,5 @@ def _unlike(a: str, b: str) -> str:
 
 
 def _fixed(formula: Formula) -> list[str]:
-    """Which of its references $ fixes: in R1C1 notation these are the ones without brackets."""
+    """Which of its references are fixed by $: in R1C1 notation those have no brackets."""
     return [re.sub(r"-?\d+", "", p.shape.rpartition("!")[2]) for p in formula.pieces if p.area]

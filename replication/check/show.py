@@ -1,4 +1,4 @@
-"""What `check` and `diff` found: one JSON document, and text, page and JUnit file that show it."""
+"""The results of `check` and `diff`: one JSON document, and the text, page and JUnit file of it."""
 
 import re
 from collections import Counter
@@ -18,15 +18,16 @@ from replication.check.table import address
 from replication.check.words import INPUTS, count, share, unit_text
 from replication.check.workbook import Check
 from replication.reading import printable
-from replication.text import aligned, with_unit
+from replication.text import aligned, quantity, with_unit
 from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
 _MOST = 12
-"""Entries of a list that are shown; whoever has more of one kind has other troubles first."""
+"""How many entries of a list the text shows: with more of one kind, the first matter most."""
 _ROWS, _COLUMNS = 400, 40
-"""More rows or columns of a sheet are drawn only around what is marked."""
+"""How many rows and columns of a sheet are drawn; beyond, only those near marked cells."""
 _NEAR = 3
+"""How far from a marked cell is near."""
 
 Record = Mapping[str, Any]
 
@@ -35,10 +36,10 @@ Record = Mapping[str, Any]
 
 def check_record(check: Check) -> dict[str, Any]:
     """The document of `coldspray check --json`; a number beyond doubles is null."""
-    tables = check.examinations
+    exams = check.examinations
     return _record([check.calculation], _verdict(check), check.differences, check.first) | {
-        "taken": [_taken(f) for f in tables],
-        "final_depths": [_finite(_depth(f)) for f in tables],
+        "taken": [_taken(exam) for exam in exams],
+        "final_depths": [_finite(_depth(exam)) for exam in exams],
         "claims": [
             {
                 "id": number.claim.id, "title": number.claim.title,
@@ -52,7 +53,7 @@ def check_record(check: Check) -> dict[str, Any]:
 
 
 def diff_record(comparison: Comparison) -> dict[str, Any]:
-    """The document of `coldspray diff --json`; `expected` is the first workbook's."""
+    """The document of `coldspray diff --json`; `expected` is what the first workbook holds."""
     differences, calculations = comparison.differences, (comparison.before, comparison.after)
     cells = {cell for d in differences if d.kind in ("formula", "value") for cell in d.cells}
     last = {cell for d in differences if d.explanation.startswith(LAST) for cell in d.cells}
@@ -62,8 +63,8 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
         verdict += f", {follow:,} of which follow{'s' * (follow == 1)} from {others}"
     verdict += f", in the contents of {count(len(cells), 'cell')}" if cells else ""
     if last:
-        here = "" if last == cells else f" in {len(last):,} of them"
-        verdict += f"; only the last digits differ{here}: --relative 1e-14 takes these as equal"
+        where = "" if last == cells else f" in {len(last):,} of them"
+        verdict += f"; only the last digits differ{where}: --relative 1e-14 takes these as equal"
     equal = "Equal: every cell holds the same"
     if any(c.unknown for c in calculations):
         equal += ", but for formulas that are not computed"
@@ -85,7 +86,7 @@ def _record(
     differences: Sequence[Difference],
     first: Difference | None,
 ) -> dict[str, Any]:
-    """What the two documents have in common."""
+    """The keys that both documents have."""
     return {
         "file": " and ".join(str(c.book.path) for c in calculations),
         "verdict": verdict,
@@ -101,20 +102,21 @@ def _record(
 
 
 def _finite(record: Record) -> Record:
-    """The same without numbers that JSON does not know."""
+    """The record with null for numbers that JSON cannot hold."""
     infinite = (float("inf"), float("-inf"))
     return {k: None if v in infinite or v != v else v for k, v in record.items()}
 
 
 def _verdict(check: Check) -> str:
-    causes, faults = check.causes, check.faults
+    """The result in one sentence."""
+    causes, faults, exams = check.causes, check.faults, check.examinations
     if not faults:
         others = sum(d.kind == "other input" for d in check.differences)
         inputs = f", with {count(others, 'other input')}" if others else ""
-        goes = "" if any(f.ends for f in check.examinations) else " as far as it goes"
-        places = {place for f in check.examinations for place in f.table.places}
+        extent = "" if any(exam.ends for exam in exams) else " as far as it goes"
+        places = {place for exam in exams for place in exam.table.places}
         numbers = "" if places & check.calculation.formulas.keys() else ", in numbers, no formulas"
-        return f"Clean{goes}: the report's sheet{inputs}, cell by cell{numbers}."
+        return f"Clean{extent}: the report's sheet{inputs}, cell by cell{numbers}."
     if not causes:
         return f"The sheet is right, with {count(len(faults), 'number')} beside it not as printed."
     if all(d.kind == "operation order" for d in causes):
@@ -122,57 +124,59 @@ def _verdict(check: Check) -> str:
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"
     if unmet := len(faults) - len(causes):
         sentence += f", {count(unmet, 'printed number')} not met"
-    for f in check.examinations:
-        if (depths := _apart(f)) is not None:
+    for exam in exams:
+        if (depths := _wrong_depth(exam)) is not None:
             reached, right = (f"{depth * 1e6:.7g} um" for depth in depths)
-            which = _which(f.table.sheet, f.table.area("depth"), len(check.examinations))
-            return f"{sentence}; the final depth{which} is {reached}, and should be {right}."
-    if all(f.right_depth and f.final_depth and f.ends for f in check.examinations):
-        tables = "the table ends" if len(check.examinations) == 1 else "every table ends"
+            table = _of_table(exam.table.sheet, exam.table.area("depth"), len(exams))
+            return f"{sentence}; the final depth{table} is {reached}, and should be {right}."
+    if all(exam.right_depth and exam.final_depth and exam.ends for exam in exams):
+        tables = "the table ends" if len(exams) == 1 else "every table ends"
         return f"{sentence}; {tables} at the right depth all the same."
     return f"{sentence}."
 
 
-def _apart(f: Examination) -> tuple[float, float] | None:
-    """The final depth and what it should be, where these differ."""
-    reached, right = f.final_depth, f.right_depth
-    if reached is None or right is None or not f.ends or abs(reached - right) <= 1e-9 * abs(right):
+def _wrong_depth(exam: Examination) -> tuple[float, float] | None:
+    """The final depth [m] and what it should be, if these differ; None for an excerpt."""
+    reached, right = exam.final_depth, exam.right_depth
+    if reached is None or right is None or not exam.ends:
         return None
-    return reached, right
+    return None if abs(reached - right) <= 1e-9 * abs(right) else (reached, right)
 
 
-def _depth(f: Examination) -> Record:
+def _depth(exam: Examination) -> Record:
     """The final depth, what it should be, and the one difference that alone explains it, if any.
 
-    Of an excerpt none is found.
+    A difference explains the depth if it alone gives it to within 5 % of the error. An excerpt has
+    no final depth.
     """
     explains = None
-    if (depths := _apart(f)) is not None:
+    if (depths := _wrong_depth(exam)) is not None:
         reached, right = depths
-        effects = [(abs(d.effect - reached), d) for d in f.differences if d.effect is not None]
+        effects = [(abs(d.effect - reached), d) for d in exam.differences if d.effect is not None]
         off, nearest = min(effects, key=lambda entry: entry[0], default=(0.0, None))
         if nearest and off < 0.05 * abs(reached - right):
             explains = address(nearest.place, True)
-    return {"sheet": f.table.sheet, "cells": f.table.area("depth"),
-            "found": f.final_depth if f.ends else None, "expected": f.right_depth,
-            "explained_by": explains, "differing": f.differing}  # fmt: skip
+    return {"sheet": exam.table.sheet, "cells": exam.table.area("depth"),
+            "found": exam.final_depth if exam.ends else None, "expected": exam.right_depth,
+            "explained_by": explains, "differing": exam.differing}  # fmt: skip
 
 
-def _which(sheet: str, cells: str, of: int) -> str:
-    """Which table's final depth it is, of so many."""
-    return f" of {safe(sheet, 40)}!{cells}" if of > 1 else ""
+def _of_table(sheet: str, cells: str, tables: int) -> str:
+    """Say which table a final depth is of, if there are several."""
+    return f" of {safe(sheet, 40)}!{cells}" if tables > 1 else ""
 
 
-def _taken(f: Examination) -> Record:
-    table, names = f.table, dict.fromkeys(rule.name for rule in f.rows.others.values())
+def _taken(exam: Examination) -> Record:
+    """What was taken for what in a table: its scheme, its columns and its inputs."""
+    table, rules = exam.table, dict.fromkeys(rule.name for rule in exam.rows.others.values())
     return {
         "sheet": table.sheet,
         "direction": "to the right" if table.across else "down",
         "steps": table.steps,
-        "scheme": " and ".join(names) or "the report's",
+        "scheme": " and ".join(rules) or "the report's",
         "columns": {
             role: {"cells": table.area(role), "head": line.head,
-                   "unit": unit_text(role, f.powers[role]),
+                   "unit": unit_text(role, exam.powers[role]),
                    "by": "--map" if line.given else "head" if role in line.roles else "values"}
             for role, line in table.lines.items()
         },
@@ -181,7 +185,7 @@ def _taken(f: Examination) -> Record:
                    "cell": address(entry.place, True) if entry.place else None,
                    "label": entry.label or None, "by": entry.how}
             for role in INPUTS
-            if (entry := f.inputs.get(role)) is not None
+            if (entry := exam.inputs.get(role)) is not None
         },
     }  # fmt: skip
 
@@ -190,7 +194,7 @@ def _taken(f: Examination) -> Record:
 
 
 def safe(text: object, limit: int = 90) -> str:
-    r"""Text from a file as it may be shown: one line, nothing that moves a terminal, not too long.
+    r"""Text from a file made safe to show: one line, no control characters, not too long.
 
     >>> safe("a\nb\x1b[31m"), safe("abcdef", 5), safe("abcde", 5)
     ('a\\nb\\x1b[31m', 'ab...', 'abcde')
@@ -201,11 +205,11 @@ def safe(text: object, limit: int = 90) -> str:
 
 
 _PLAIN = re.compile("#|'|TRUE$|FALSE$")
-"""How errors, truth values, and texts that have quotes begin."""
+"""The start of an error, a truth value, or a text that has quotes already: these need none."""
 
 
 def contents(difference: Record) -> str:
-    """What a cell holds and what it should hold; of `diff`, what it was and what it is.
+    """Say what a cell holds and should hold; for `diff`, what it held and what it holds now.
 
     >>> contents({"kind": "value", "expected": 500.0, "found": None})
     'was 500.0, is blank'
@@ -233,7 +237,7 @@ def contents(difference: Record) -> str:
 
 
 def text(record: Record) -> str:
-    """All that was found, the most important first."""
+    """The result for a terminal, the most important first."""
     return "\n".join(_lines(record))
 
 
@@ -246,20 +250,20 @@ def _lines(record: Record) -> Iterator[str]:
     first, differences = record["first"], record["differences"]
     if first:
         yield from ("", "First in order of calculation", *_difference(first))
-        for depth in record["final_depths"]:
-            if depth["explained_by"]:
-                differ = "differs" if depth["differing"] == 1 else "differ"
-                cells = f"{count(depth['differing'], 'cell')} of its table {differ}"
-                cell = safe(depth["explained_by"], 60)
-                of = len(record["final_depths"])
-                which = _which(depth["sheet"], depth["cells"], of)
-                explains = f"{cell} alone explains the final depth{which}; {cells}"
-                explains += " from the right run"
-                yield _wrapped(explains, "    ")
+        depths = record["final_depths"]
+        for depth in filter(lambda depth: depth["explained_by"], depths):
+            cell = safe(depth["explained_by"], 60)
+            table = _of_table(depth["sheet"], depth["cells"], len(depths))
+            verb = "differs" if depth["differing"] == 1 else "differ"
+            yield _wrapped(
+                f"{cell} alone explains the final depth{table}; "
+                f"{count(depth['differing'], 'cell')} of its table {verb} from the right run",
+                "    ",
+            )
     aside = {"other input": "Other inputs than the report's, which are no fault",
              "not calculated": "Not covered"}  # fmt: skip
-    kinds = {*aside, "printed number"}  # which have a paragraph of their own
-    rest = [d for d in differences if d != first and d["kind"] not in kinds]
+    apart = {*aside, "printed number"}  # these kinds have a paragraph of their own
+    rest = [d for d in differences if d != first and d["kind"] not in apart]
     yield from _list("Then", [line for d in rest[:_MOST] for line in _difference(d)], len(rest))
     for kind, title in aside.items():
         of_kind = [d for d in differences if d["kind"] == kind]
@@ -288,22 +292,23 @@ def _lines(record: Record) -> Iterator[str]:
 
 
 def _table(taken: Record) -> Iterator[str]:
+    """What was taken for what in a table, as lines."""
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
     sheet = repr(safe(taken["sheet"], 40))
     yield f"  sheet {sheet}: {taken['steps']} steps {taken['direction']}, {named}"
     entries = [
-        (name, column["cells"], f"in {column['unit']}", _by(column["by"], column["head"]))
+        (name, column["cells"], f"in {column['unit']}", _known_by(column["by"], column["head"]))
         for name, column in taken["columns"].items()
     ] + [
         (name, safe(entry["cell"] or "-", 40), with_unit(f"{entry['value']:.10g}", entry["unit"]),
-         _by(entry["by"], entry["label"]))
+         _known_by(entry["by"], entry["label"]))
         for name, entry in taken["inputs"].items()
     ]  # fmt: skip
     yield from aligned([(f"    {name.replace('_', ' ')}", *rest) for name, *rest in entries])
 
 
-_WAYS = {
+_KNOWN_BY = {
     "rows": "in no cell; solved back from the rows",
     "report": "in no cell; the report's, with which the rows agree",
     "assumed": "in no cell; the report's is assumed",
@@ -314,10 +319,11 @@ _WAYS = {
 }
 
 
-def _by(how: str, said: str) -> str:
+def _known_by(how: str, label: str) -> str:
+    """Say how a column or an input was recognized."""
     if how == "follows":
-        return f"follows from {said}"
-    return _WAYS.get(how) or f"{how} {safe(said, 40)!r}"
+        return f"follows from {label}"
+    return _KNOWN_BY.get(how) or f"{how} {safe(label, 40)!r}"
 
 
 def _difference(difference: Record) -> Iterator[str]:
@@ -336,27 +342,28 @@ def _wrapped(line: str, indent: str) -> str:
     return fill(line, 100, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)
 
 
-def _list(title: str, lines: Sequence[str], of: int = 0) -> Iterator[str]:
+def _list(title: str, lines: Sequence[str], total: int = 0) -> Iterator[str]:
+    """A paragraph of lines under a title, if any; `total` counts the entries that there are."""
     if lines:
         yield from ("", title, *lines)
-    if of > _MOST:
-        yield f"  and {of - _MOST} more, which --json lists"
+    if total > _MOST:
+        yield f"  and {total - _MOST} more, which --json lists"
 
 
 # ---- for a browser
 
 
 def html(record: Record, differences: Sequence[Difference], calculation: Calculation) -> str:
-    """The page of a record; without scripts, and with nothing from outside.
+    """The page of a record, without scripts and with nothing loaded from outside.
 
     `differences` are those of the record, with their cells in the workbook that is drawn.
     """
     sheets = list(calculation.book.sheets)
     marked = {d.place[0] for d in differences}
     pairs = zip(differences, record["differences"], strict=True)
-    both = sorted(pairs, key=lambda pair: _list_of(pair[1]))  # numbered as they are listed
-    differences = [d for d, _ in both]
-    numbered = [(n, told, _anchor(d.place, sheets)) for n, (d, told) in enumerate(both, 1)]
+    listed = sorted(pairs, key=lambda pair: _list_of(pair[1]))  # numbered in this order
+    differences = [d for d, _ in listed]
+    numbered = [(n, shown, _anchor(d.place, sheets)) for n, (d, shown) in enumerate(listed, 1)]
     parts = {
         **record,
         "head": page.head("replication.report", "replication.check"),
@@ -366,7 +373,8 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
         ],
         "sheets": [_drawn(name, differences, calculation) for name in sheets if name in marked],
     }
-    filters = {"safe": safe, "contents": contents, "unit": written}
+    filters = {"safe": safe, "contents": contents, "unit": written, "quantity": quantity,
+               "known_by": _known_by}  # fmt: skip
     return page.filled("replication.check", "page.html.j2", parts, filters)
 
 
@@ -375,21 +383,22 @@ _LISTS = (
     ("unmet", "Printed numbers that it does not meet"),
     ("notes", "No fault by itself"),
 )
-"""The page's lists of differences: name and title."""
+"""The lists of differences on the page: the name and the title of each."""
 
 
 def _list_of(difference: Record) -> int:
-    """In which of them a difference is."""
+    """The index in `_LISTS` of the list that a difference belongs to."""
     kind = difference["kind"]
     return 2 if kind in NO_FAULT else int(kind == "printed number")
 
 
 def _anchor(place: Position, sheets: Sequence[str]) -> str:
+    """The id of a drawn cell on the page; empty if its sheet is not drawn."""
     return f"c{sheets.index(place[0])}-{address(place)}" if place[0] in sheets else ""
 
 
 def _drawn(name: str, differences: Sequence[Difference], calculation: Calculation) -> Record:
-    """A sheet with its differences marked: its name, heads, and rows of cells."""
+    """A sheet with its differences marked: its name, column letters, and rows of cells."""
     origins = {d.place: number for number, d in reversed(list(enumerate(differences, 1)))}
     kinds = {place: d.kind.replace(" ", "-") for d in reversed(differences) for place in d.cells}
     used = [p for p in (*calculation.values, *origins) if p[0] == name]
@@ -419,7 +428,7 @@ def _drawn(name: str, differences: Sequence[Difference], calculation: Calculatio
 
 
 def _kept(used: set[int], marked: set[int], most: int) -> list[int]:
-    """All lines that hold something; of too many the first, and those around what is marked."""
+    """The used lines; if there are too many, the first of them and those near marked ones."""
     near = {m + i for m in sorted(marked)[:20] for i in range(-_NEAR, _NEAR + 1)}
     lines = sorted(used)
     return lines if len(lines) <= most else sorted({*lines[: most // 4], *(near & used)})
@@ -429,7 +438,7 @@ def _kept(used: set[int], marked: set[int], most: int) -> list[int]:
 
 
 def junit(record: Record, kinds: Sequence[str]) -> str:
-    """A suite with one test for each kind: failed where it was found, skipped where not covered."""
+    """A test suite with one test for each kind: failed if it was found, skipped if not covered."""
     failed = record["summary"].keys() - NO_FAULT
     suite = ET.Element(
         "testsuite", name=f"coldspray {safe(record['file'], 200)}", tests=str(len(kinds)),

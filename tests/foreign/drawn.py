@@ -1,4 +1,4 @@
-"""Layouts drawn at random: heads, units, order, place and helpers that nobody chose by hand."""
+"""Layouts drawn at random: their heads, units, order, places and helper columns."""
 
 import random
 import re
@@ -28,7 +28,7 @@ HEADS, UNITS, LABELS, INPUT_UNITS = TABLES.values()
 
 
 def drawn(seed: int, impact: Impact) -> Foreign:
-    """A workbook of that seed: everything about it is drawn, but what it calculates."""
+    """The workbook of a seed: all of it is drawn, except what it calculates."""
     r = random.Random(seed)
     f = Foreign(f"random-{seed}", impact, si=False)
     sheet = r.choice(["Sheet1", "Tabelle1", "Feuil1", "sim", "my sheet", "v=500"])
@@ -74,17 +74,18 @@ def _contents(
     lines: dict[str, str], across: bool, units: dict[str, tuple[str, str]], si: dict[str, str],
     negative: bool,
 ) -> dict[str, tuple[str, ...]]:  # fmt: skip
-    """What stands in row 0 of a line, in the rows that follow, and in row 1 where it is another."""
+    """The contents of each line: in row 0, in the rows that follow, and in row 1 if special."""
 
     def cell(name: str, row: str = "{r}") -> str:
         return f"{row}{lines[name]}" if across else f"{lines[name]}{row}"
 
     def inner(name: str, row: str = "{r}") -> str:
-        """The cell's value in SI."""
+        """A formula for the value of a cell in SI units."""
         factor = units[name][1]
         return f"{cell(name, row)}/{factor}" if factor else cell(name, row)
 
     def outer(name: str, text: str) -> str:
+        """A formula for a value in the unit of a line."""
         factor = units[name][1]
         return f"=({text})*{factor}" if factor else f"={text}"
 
@@ -109,7 +110,7 @@ def _contents(
 
 
 def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str, str]:
-    """Write the inputs; the cell that holds each in SI, absolute."""
+    """Write the inputs, and return for each the absolute reference to its value in SI units."""
     row, col = r.randrange(1, 3), r.randrange(1, 8)
     beside = r.random() < 0.5
     flat = not beside and r.random() < 0.4 and not simple
@@ -119,7 +120,7 @@ def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str,
     si = {}
 
     def at(i: int) -> tuple[str, str]:
-        """The cells of a label and of what it is about."""
+        """The cell of a label, and the cell that it labels."""
         if flat:
             return f"{letters(col + i)}{row}", f"{letters(col + i)}{row + 1}"
         return f"{letters(col)}{row + i}", f"{letters(col + 1)}{row + i}"
@@ -128,13 +129,13 @@ def _inputs(f: Foreign, r: random.Random, sheet: str, simple: bool) -> dict[str,
         unit, conversion = INPUT_UNITS[name][0] if simple else r.choice(INPUT_UNITS[name])
         factor = float(conversion[1:] or 1)
         own = values[name] * factor if conversion[:1] == "/" else values[name] / factor
-        (label, here), text = at(i), r.choice(LABELS[name])
+        (label, cell), text = at(i), r.choice(LABELS[name])
         f.put(sheet, label, text if simple or beside else f"{text} [{unit}]")
         if beside and not simple:
             f.put(sheet, f"{letters(col + 2)}{row + i}", unit)
-        f.put(sheet, here, float(f"{own:.12g}"))
-        f.inputs[name] = place(sheet, here)
-        absolute = absolute_coordinate(here)
+        f.put(sheet, cell, float(f"{own:.12g}"))
+        f.inputs[name] = place(sheet, cell)
+        absolute = absolute_coordinate(cell)
         si[name] = f"({absolute}{conversion})" if conversion else absolute
     label, mass = at(7)
     f.put(sheet, label, "mass [kg]")

@@ -1,4 +1,4 @@
-"""Faults to plant in a foreign workbook, and where and as what each ought to be found."""
+"""Faults to plant in a foreign workbook; and where, and as which kind, each should be found."""
 
 import copy
 import re
@@ -13,7 +13,7 @@ Values = Mapping[Place, Any]
 
 @dataclass
 class Planted:
-    """A spoiled workbook: the kind that ought to be named, at which cell, or one of some cells."""
+    """A workbook with a fault, the kind to name, and the cells of which one is to be accused."""
 
     kind: str
     workbook: Foreign
@@ -24,13 +24,13 @@ class Planted:
 
 Plant = Callable[[Foreign, Values], Planted | None]
 FAULTS: dict[str, Plant] = {}
-"""Each plants its fault in a workbook with these values, or nothing where it cannot be."""
+"""Each plants its fault in a workbook with these values, or returns None if it cannot."""
 
 
 def fault(name: str, kind: str, near: int = 1, *, stored: bool = False) -> Callable[..., None]:
-    """Make a fault of a function that says what other cells hold, or what is `stored` in them.
+    """Register a function that returns changed contents of cells, or changed `stored` values.
 
-    It ought to be named at the first of them, or at one of as many as are `near`.
+    The fault should be found in the first `near` of these cells.
     """
 
     def register(changes: Callable[[Foreign, Values], Mapping[Place, Any] | None]) -> None:
@@ -52,7 +52,7 @@ def in_column(
     name: str, kind: str, role: str, steps: Iterable[int],
     change: Callable[[Foreign, str, Any], object], *, stored: bool = False,
 ) -> None:  # fmt: skip
-    """A fault in a column, in some steps or all: what a formula with its value is changed into."""
+    """Register a fault in a column, in some steps or all: how it changes a formula or its value."""
 
     def changes(f: Foreign, values: Values) -> Mapping[Place, Any]:
         return {p: change(f, t, values.get(p)) for p, t in _formulas(f, role, *steps).items()}
@@ -60,29 +60,30 @@ def in_column(
     fault(name, kind, stored=stored)(changes)
 
 
-def ref(place: Place) -> str:
-    return f"{letters(place[2])}{place[1]}"
+def ref(place: Place, dollar: str = "") -> str:
+    """The reference to a cell within its sheet; with a dollar, the absolute one."""
+    return f"{dollar}{letters(place[2])}{dollar}{place[1]}"
 
 
 def _formulas(f: Foreign, role: str, *steps: int) -> dict[Place, str]:
-    """The formulas of a column in these steps, or all."""
+    """The formulas of a column in some steps, or in all."""
     places = [f.where.get((role, k)) for k in steps or range(1, f.steps + 1)]
     texts = {place: f.cells.get(place) for place in places if place}
     return {p: t for p, t in texts.items() if isinstance(t, str) and t.startswith("=")}
 
 
 def _names(f: Foreign, place: Place) -> list[str]:
-    """The names of a cell."""
-    cell = f"${letters(place[2])}${place[1]}"
+    """The defined names of a cell."""
+    cell = ref(place, "$")
     return [name for name, meaning in f.names.items() if meaning.rpartition("!")[2] == cell]
 
 
 def _typed(f: Foreign, text: str, _: object) -> str:
-    """A formula with the value of an input in place of its cell."""
+    """A formula with the value of an input typed in place of a reference to its cell."""
     references = []
     for role, place in f.inputs.items():
         if role not in ("beta", "stop_velocity"):
-            cell = f"${letters(place[2])}${place[1]}"
+            cell = ref(place, "$")
             as_cell = [cell, f"{place[0]}!{cell}", f"'{place[0]}'!{cell}"]
             references += [(name, f.cells[place]) for name in (*as_cell, *_names(f, place))]
     for reference, value in sorted(references, key=lambda entry: -len(entry[0])):
@@ -99,14 +100,14 @@ in_column("typed number", "typed number", DEPTH, [40], lambda _f, _, v: float(f"
 
 @fault("typed number, right value", "typed number")
 def _(f: Foreign, values: Values) -> Mapping[Place, Any]:
-    """The right number over a formula: wrong as soon as an input changes."""
+    """The right number typed over a formula: wrong as soon as an input changes."""
     role = END if (END, 77) in f.where else START
     return {place: values[place] for place in _formulas(f, role, 77)}
 
 
 @fault("odd formula", "odd formula")
 def _(f: Foreign, _: Values) -> Mapping[Place, Any]:
-    """A formula copied without its references moving: it reads the row before."""
+    """A formula copied without moving its references: it reads the row before."""
     return dict(zip(_formulas(f, DEPTH, 52), _formulas(f, DEPTH, 51).values(), strict=True))
 
 
@@ -117,7 +118,7 @@ in_column("typed constant, column", "typed constant", BRAKE, [], _typed)
 
 @fault("operation order", "operation order", near=999)
 def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
-    """The same product from its other end, which changes last digits."""
+    """The same product in another order, which changes last digits."""
     product = r"=(-?\(.*?\))\*PI\(\)\*(\(.*\))/([^/()]+)"
     texts = _formulas(f, BRAKE)
     if not f.si or not all(re.fullmatch(product, text) for text in texts.values()):
@@ -143,7 +144,7 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
         return None
     step = "0.0000000002"
     if place := f.inputs.get("step"):
-        step = next(iter(_names(f, place)), f"${letters(place[2])}${place[1]}")
+        step = next(iter(_names(f, place)), ref(place, "$"))
     changes = {}
     for k, (place, text) in enumerate(texts.items(), 1):
         guarded = re.fullmatch(r"(=IF\(ISNUMBER\(\w+\),)(.*)(,\"\"\))", text)
@@ -157,9 +158,9 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
 
 @fault("explicit Euler", "other scheme", near=3)
 def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
-    """The depth moves on by the velocity of the row before.
+    """The depth grows by the velocity of the row before.
 
-    In row 2 that is still nearly the same: row 2 or 3 shows it.
+    In row 2 the difference is still small, so it shows in row 2 or 3.
     """
     changes = {}
     for k, (place, text) in enumerate(_formulas(f, DEPTH, *range(2, f.steps + 1)).items(), 2):
@@ -174,7 +175,7 @@ in_column("drag without 1/2", "other scheme", BRAKE, [], lambda _f, t, _: t.repl
 
 
 def early_stop(f: Foreign, _: Values) -> Planted | None:
-    """The last nine rows are missing; what reads the last row reads the new one."""
+    """The last nine rows are missing; cells that read the last row now read the new last one."""
     if not _formulas(f, DEPTH, 40) or f.name in ("guarded", "side-by-side"):
         return None
     g = copy.deepcopy(f)
@@ -193,11 +194,12 @@ FAULTS["stop at another velocity"] = early_stop
 
 
 def _across(f: Foreign) -> bool:
+    """Whether the table runs to the right."""
     return f.where[DEPTH, 1][1] == f.where[DEPTH, 2][1]
 
 
 def _beside(f: Foreign, first: int, last: int) -> set[Place]:
-    """All cells in the same rows (or columns) of the table, but for inputs."""
+    """All cells in some rows (or columns) of the table, except inputs."""
     low, high = f.where[DEPTH, first], f.where[DEPTH, last]
     along = 2 if _across(f) else 1
     return {
@@ -207,11 +209,11 @@ def _beside(f: Foreign, first: int, last: int) -> set[Place]:
 
 
 def _replaced(f: Foreign, pattern: str, to: str) -> Mapping[Place, Any]:
-    """The first formula beside the table that follows a pattern, otherwise."""
+    """Rewrite the first formula outside the table that matches a pattern."""
     steps = [k for role, k in f.where if role == DEPTH]
     rows = _beside(f, min(steps), max(steps)) | set(f.where.values())
     texts = {p: c for p, c in f.cells.items() if isinstance(c, str) and p not in rows}
-    # A stray row below a table has the drag's 0.5 in it.
+    # A row below the table may repeat its formulas; the drag's 0.5 tells it.
     formulas = {p: t for p, t in texts.items() if t.startswith("=") and "0.5*" not in t}
     changed = ((p, re.sub(pattern, to, text)) for p, text in formulas.items())
     return dict(next(([entry] for entry in changed if entry[1] != f.cells[entry[0]]), []))
@@ -242,19 +244,19 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """A head that says millimetres over metres, or micrometres."""
     sheet, row, column = f.where[DEPTH, 1]
     for back in range(2, 5):
-        here = (sheet, row, column - back) if _across(f) else (sheet, row - back, column)
-        text = str(f.cells.get(here, ""))
+        head = (sheet, row, column - back) if _across(f) else (sheet, row - back, column)
+        text = str(f.cells.get(head, ""))
         if text == "m":
-            return {here: "mm"}
+            return {head: "mm"}
         for old, new in () if text.startswith("=") else UNITS:
             if re.search(rf"{re.escape(old)}(?!\w)", text):
-                return {here: re.sub(rf"{re.escape(old)}(?!\w)", new, text)}
+                return {head: re.sub(rf"{re.escape(old)}(?!\w)", new, text)}
     return None
 
 
 @fault("unit of an input", "unit")
 def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
-    """The radius a thousand times too large, as if its cell were in millimetres."""
+    """A radius a thousand times too large, as if its cell were in millimetres."""
     place = f.inputs.get("radius")
     if place is None or not _formulas(f, DEPTH, 3):
         return None
@@ -262,7 +264,7 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
 
 
 def other_velocity(f: Foreign, _: Values) -> Planted | None:
-    """Not the report's impact velocity, all else right."""
+    """Another impact velocity than the report's; all else is right."""
     place = f.inputs.get("velocity")
     if place is None or not _formulas(f, DEPTH, 3) or f.name == "guarded":
         return None

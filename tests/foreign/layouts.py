@@ -1,7 +1,7 @@
-"""Workbooks as other people lay out the report's sheet, of the habits in `layouts.txt`.
+"""Workbooks in which other people lay out the report's sheet, as described in `layouts.txt`.
 
-Rows are numbered as in the report: row 0 is the impact, row 1 the first step. `faults.py` spoils
-the workbooks, `writers.py` makes files of them.
+Rows are numbered as in the report: row 0 is the impact, row 1 the first step. `faults.py` plants
+faults in the workbooks, `writers.py` writes them to files.
 """
 
 import json
@@ -12,7 +12,12 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from openpyxl.utils.cell import column_index_from_string, get_column_letter
+from openpyxl.utils.cell import (
+    column_index_from_string,
+    coordinate_to_tuple,
+    get_column_letter,
+    range_boundaries,
+)
 
 from replication.models.impact import Impact
 from replication.models.sheet import Sheet, run
@@ -32,13 +37,13 @@ letters = get_column_letter
 
 
 def place(sheet: str, address: str) -> Place:
-    letters = address.rstrip("0123456789")
-    return sheet, int(address[len(letters) :]), column_index_from_string(letters)
+    """The place of a cell that is written as B7."""
+    return (sheet, *coordinate_to_tuple(address))
 
 
 @dataclass
 class Foreign:
-    """A workbook before it is a file: contents by place, and what is where."""
+    """A workbook before it is a file: its cells, and where its columns and inputs are."""
 
     name: str
     impact: Impact
@@ -47,7 +52,7 @@ class Foreign:
     inputs: dict[str, Place] = field(default_factory=dict)
     names: dict[str, str] = field(default_factory=dict)
     si: bool = True
-    """Whether every cell is in SI, so that its last digits can be judged."""
+    """Whether all cells are in SI units, so that last digits can be judged."""
 
     @property
     def steps(self) -> int:
@@ -59,6 +64,7 @@ class Foreign:
 
 @cache
 def calculated(impact: Impact) -> Sheet:
+    """The report's sheet of an impact."""
     return run(impact)
 
 
@@ -66,13 +72,13 @@ TEXTS = {
     block.partition("\n")[0]: block.splitlines()[2:]
     for block in Path(__file__).with_name("layouts.txt").read_text("utf-8").split("\n## ")[1:]
 }
-"""The lines of each layout, without its name and what is special in it."""
+"""The lines of each layout, without its name and the line that describes it."""
 
 BY_HAND = tuple(name for name in TEXTS if name not in ("plain", "middle", "empty"))
 
 
 class Table(NamedTuple):
-    """Row 0 in the row or column `zero`; how many steps, and whether they are the impact's own."""
+    """A table with row 0 in row (or column) `zero`; `own`: its steps are those of the impact."""
 
     zero: int
     heads: int
@@ -81,13 +87,14 @@ class Table(NamedTuple):
     own: bool
 
     def place(self, sheet: str, line: str, k: int) -> Place:
+        """The cell of step k in a line of the table."""
         if self.across:
             return sheet, int(line), self.zero + k
         return place(sheet, f"{line}{self.zero + k}")
 
 
 def made(layout: str, impact: Impact, rows: int | None = None) -> Foreign:
-    """A layout filled with that impact, in as many rows as it needs or another number of them."""
+    """Fill a layout with an impact, in as many rows as that needs, or in a given number."""
     f, sheet, table = Foreign(layout, impact), "", Table(0, 0, 0, False, False)
     resistance, another = impact.target_resistance, 3.0 if impact.beta == 5 else 5.0
     numbers = asdict(impact) | {
@@ -130,27 +137,27 @@ def add_column(
     f: Foreign, sheet: str, table: Table, line: str, head: str, role: str, zero: str, rest: str,
     first: str = "",
 ) -> None:  # fmt: skip
-    """A column of a table: row 0, the rows that follow, and row 1 where it is another."""
+    """Fill a column of a table: row 0, then the first row if it is special, then the rest."""
     if head:
         f.put(sheet, f"{line}{table.heads}", head)
     steps = calculated(f.impact).rows
     for k in range(table.steps + 1):
-        here, before = table.place(sheet, line, k), table.place(sheet, line, k - 1)
-        own, previous = (letters(at[2]) if table.across else at[1] for at in (here, before))
-        row = (
-            dict(zip(("t", "v0", "x", "a", "v1"), steps[k], strict=True)) if k < len(steps) else {}
-        )
-        units = {"t_ns": row["t"] * 1e9, "x_um": row["x"] * 1e6} if row else {}
+        cell, before = table.place(sheet, line, k), table.place(sheet, line, k - 1)
+        own, previous = (letters(at[2]) if table.across else at[1] for at in (cell, before))
+        row = {}
+        if k < len(steps):
+            row = dict(zip(("t", "v0", "x", "a", "v1"), steps[k], strict=True))
+            row |= {"t_ns": row["t"] * 1e9, "x_um": row["x"] * 1e6}
         text = zero if k == 0 else first if k == 1 and first else rest
-        content = filled(text, r=own, p=previous, k=k, **row, **units)
+        content = filled(text, r=own, p=previous, k=k, **row)
         if content is not None:
-            f.cells[here] = content
+            f.cells[cell] = content
             if role and table.own and k <= f.steps:
-                f.where[role, k] = here
+                f.where[role, k] = cell
 
 
 def filled(text: str, **values: object) -> Content:
-    """A content with values in it; what is JSON is a number, a truth value or a quoted text."""
+    """Fill values into a content; if it is then JSON, read it: a number, a truth value, a text."""
     text = text.format(**values)
     try:
         return json.loads(text or "null")
@@ -160,19 +167,16 @@ def filled(text: str, **values: object) -> Content:
 
 def insert(f: Foreign, at: str, count: int) -> None:
     """Insert rows before a row, or columns before a column."""
-    rows = int(at) if at.isdigit() else 10**9
-    columns = 10**9 if at.isdigit() else column_index_from_string(at)
-    relocate(
-        f, lambda row, column: (row + count * (row >= rows), column + count * (column >= columns))
-    )
+    if at.isdigit():
+        move(f, at, count, 0)
+    else:
+        move(f, f"{at}1:ZZ99999", 0, count)
 
 
 def move(f: Foreign, cells: str, down: int, right: int) -> None:
-    """Cut an area, or all cells from a row on, and paste them elsewhere, over what is there."""
-    ends = [
-        place("", end) for end in (f"A{cells}:ZZ99999" if cells.isdigit() else cells).split(":")
-    ]
-    (_, top, left), (_, bottom, last) = ends[0], ends[-1]
+    """Cut an area, or all cells from a row on, and paste it elsewhere, over what is there."""
+    area = f"A{cells}:ZZ99999" if cells.isdigit() else cells
+    left, top, last, bottom = range_boundaries(area)
 
     def to(row: int, column: int) -> tuple[int, int]:
         inside = top <= row <= bottom and left <= column <= last
@@ -184,7 +188,7 @@ def move(f: Foreign, cells: str, down: int, right: int) -> None:
 
 
 def relocate(f: Foreign, to: Callable[[int, int], tuple[int, int]]) -> None:
-    """Move every cell of a lone sheet as a spreadsheet does, with what refers to it."""
+    """Move cells of the only sheet, as a spreadsheet does, together with the references to them."""
 
     def address(match: re.Match[str]) -> str:
         row, column = to(*place("", f"{match[2]}{match[4]}")[1:])
@@ -200,15 +204,15 @@ def relocate(f: Foreign, to: Callable[[int, int], tuple[int, int]]) -> None:
 
 def change(f: Foreign, address: str, text: str) -> None:
     """Give cells other contents, as `contents` reads them; an empty text clears them."""
-    for here, content in contents(f, address, text):
+    for cell, content in contents(f, address, text):
         if content is None:
-            f.cells.pop(here, None)
+            f.cells.pop(cell, None)
         else:
-            f.cells[here] = content
+            f.cells[cell] = content
 
 
 def contents(f: Foreign, address: str, text: str) -> Iterator[tuple[Place, Content]]:
-    """What an address of `cases.txt` stands for, and what each of its cells is to hold."""
+    """The cells that an address of `cases.txt` stands for, and what each of them is to hold."""
     sheet, _, cells = address.rpartition("!")
     sheet = sheet or next((at[0] for at in f.cells), "Sheet1")
     first, *until = cells.split(":")

@@ -1,4 +1,4 @@
-"""How well `coldspray check` does on workbooks that it has not made.
+"""Measure how well `coldspray check` does on workbooks that it has not made.
 
 `python tests/foreign/rates.py` prints the tables of docs/check.md; the tests measure them again.
 """
@@ -25,7 +25,7 @@ from replication.models.sheet import run
 
 DRAWN = range(24)
 AFRESH = range(3000, 3040)
-"""Of the tests; and of `main` alone, which nobody looked at when the program was made."""
+"""The seeds that the tests use, and those of `main` alone: nobody tuned the program to these."""
 CASES = (BETA_5, BETA_3)
 
 
@@ -35,7 +35,7 @@ def by_hand(impact: Impact) -> list[Foreign]:
 
 
 def workbooks(made_by: str) -> list[Foreign]:
-    """The right workbooks that one program writes: of LibreOffice's, which is slow, not all."""
+    """The right workbooks that a program writes; fewer for LibreOffice, which is slow."""
     if made_by.startswith("LibreOffice"):
         return by_hand(BETA_5)[: 20 if made_by.endswith("xlsx") else 8]
     books = [f for impact in CASES for f in by_hand(impact)]
@@ -43,7 +43,7 @@ def workbooks(made_by: str) -> list[Foreign]:
 
 
 def clean(f: Foreign, path: Path) -> bool:
-    """Whether a right workbook is clean, its columns and inputs taken for what they are."""
+    """Whether a right workbook is clean, and each column and input taken for what it is."""
     result = check(path)
     examination = result.examinations[0]
     columns = all(
@@ -64,10 +64,9 @@ def to_spoil() -> list[tuple[Foreign, writers.Values]]:
 def planted(
     fault: str, folder: Path, books: Iterable[tuple[Foreign, writers.Values]]
 ) -> Iterator[tuple[str, bool, bool]]:
-    """One fault in every workbook that can have it: the workbook, found, found alone.
+    """Plant a fault in every workbook that can have it, and yield its name, found, and alone.
 
-    Found: named rightly, placed on the right cell, called the first, and the depth that should be
-    is the right one; alone: nothing else accused.
+    Found: `_found`. Alone: nothing else is accused.
     """
     for f, values in books:
         if spoiled := FAULTS[fault](f, values):
@@ -77,22 +76,23 @@ def planted(
 
 
 def _found(spoiled: Planted, done: Check) -> bool:
+    """Whether the kind, the cell, the order and the depth that should be are all right."""
     right = run(spoiled.workbook.impact).final_depth
     depths = [examination.right_depth for examination in done.examinations]
     if not any(depth and math.isclose(depth, right, rel_tol=1e-9) for depth in depths):
         return False
     accused = [done.first] if spoiled.status else done.differences
-    said = any(d and d.kind == spoiled.kind and d.place in spoiled.cells for d in accused)
-    return said and (done.first is not None) == spoiled.status
+    is_named = any(d and d.kind == spoiled.kind and d.place in spoiled.cells for d in accused)
+    return is_named and (done.first is not None) == spoiled.status
 
 
 WRITERS = ("openpyxl", "like Excel", "LibreOffice .xlsx", "LibreOffice .ods", "LibreOffice .xls")
 Row = tuple[str, list[str]]
-"""A row of one of the two tables, and the workbooks that it speaks against."""
+"""A row of one of the two tables, and the names of the workbooks that failed."""
 
 
 def right_row(made_by: str, folder: Path) -> Row:
-    """How many right workbooks are clean."""
+    """Count the right workbooks that are clean."""
     books = workbooks(made_by)
     paths = [folder / f"{number}.xlsx" for number in range(len(books))]
     for f, path in zip(books, paths, strict=True):
@@ -107,7 +107,7 @@ def right_row(made_by: str, folder: Path) -> Row:
 
 
 def planted_row(fault: str, folder: Path) -> Row:
-    """In how many workbooks a fault is found."""
+    """Count the workbooks in which a fault is found."""
     result = list(planted(fault, folder, to_spoil()))
     missed = [name for name, good, _ in result if not good]
     alone = sum(lone for *_, lone in result)

@@ -1,11 +1,11 @@
-"""What `coldspray check` and `coldspray diff` say of right and of spoiled workbooks, for a person.
+"""What `coldspray check` and `coldspray diff` say about right and spoiled workbooks.
 
     python tests/foreign/said.py > tests/foreign/said.txt
 
-makes the file anew that `tests/replication/test_check.py` compares; `cases.txt` has what is
-changed in most of them. Whoever changes what the program says reads what that changes there, line
-by line, before keeping it. Numbers are shown with seven digits at most, so that no machine's last
-digits are in it.
+writes the file that `tests/replication/test_check.py` compares. `cases.txt` lists how most of the
+workbooks are spoiled. If you change what the program says, read every line that changes in
+`said.txt` before you keep it. Numbers have at most seven digits, so that the file is the same on
+every machine.
 """
 
 import math
@@ -37,11 +37,11 @@ from spreadsheets.foreign import WorkbookError
 COARSE = replace(BETA_5, step=5e-10)
 """The report's other step: 53 rows, so that many workbooks take little time."""
 Edits = list[tuple[str, str]]
-"""What is changed in a workbook: by cell, or by a word that `cases.txt` explains."""
+"""Changes to a workbook: a cell, or a word that `cases.txt` explains, and its text."""
 
 
 class Book(NamedTuple):
-    """A workbook to check, what --map says, the values stored in it, and which are false."""
+    """A workbook to check, its --map options, its stored values, and those that are wrong."""
 
     f: Foreign
     given: Mapping[str, str] | None = None
@@ -67,7 +67,7 @@ def cases() -> dict[str, dict[str, Edits]]:
 
 
 def _edit(text: str) -> tuple[str, str]:
-    """A cell, of a sheet whose name may have blanks, and what it is to hold; or a word of ours."""
+    """Split a change into a cell (of a sheet whose name may have blanks) or word, and a text."""
     cell = re.match(r"(?!map|before|stored)(((?! =).)+!)?[A-Z]+\d+(:\d*)*(?= |$)", text)
     word = cell[0] if cell else text.partition(" ")[0]
     return word, text[len(word) + 1 :]
@@ -86,21 +86,20 @@ def start(edits: Edits) -> Foreign:
 
 
 def edited(f: Foreign, edits: Edits) -> Foreign:
-    """The workbook with the changes made, one after the other."""
+    """The workbook after all changes, made one after the other."""
     for word, text in edits:
-        here, _, many = text.partition(" ")
+        first, _, rest = text.partition(" ")
         if re.search(r"[A-Z]\d", word):
             layouts.change(f, word, text)
         elif word == "insert":
-            layouts.insert(f, here, int(many))
+            layouts.insert(f, first, int(rest))
         elif word == "move":
-            layouts.move(f, here, *map(int, many.split()))
-        elif word == "rename":
-            f.cells = {(here, r, c): content for (_, r, c), content in f.cells.items()}
-        elif word == "copy":
-            f.cells |= {(here, r, c): content for (_, r, c), content in f.cells.items()}
+            layouts.move(f, first, *map(int, rest.split()))
+        elif word in ("rename", "copy"):
+            kept = f.cells if word == "copy" else {}
+            f.cells = kept | {(first, r, c): content for (_, r, c), content in f.cells.items()}
         elif word == "name":
-            f.names[here] = many
+            f.names[first] = rest
     return f
 
 
@@ -119,7 +118,7 @@ SPOILED = (
     "table-a1", "french", "sideways", "one-velocity", "no-time", "german", "velocity-at-end",
     "merged-heads", "natural-units", "no-deceleration", "named-everything", "named-constants",
 )  # fmt: skip
-"""Layouts that faults are planted in, each in two of those that can have it."""
+"""Layouts in which faults are planted, each fault in two that can have it."""
 
 
 @cache
@@ -129,12 +128,12 @@ def to_spoil(name: str) -> tuple[Foreign, writers.Values]:
 
 
 def planted(fault: str) -> Iterator[str]:
-    """One fault in two layouts, another two for the next fault."""
+    """Plant a fault in two layouts; the next fault goes into two others."""
     first, done = 5 * list(FAULTS).index(fault), 0
     for i in range(len(SPOILED)):
         f, values = to_spoil(SPOILED[(first + i) % len(SPOILED)])
         if fault == "operation order" and any("^" in str(c) for c in f.cells.values()):
-            continue  # which may differ in the last digit from machine to machine
+            continue  # a power may differ in its last digit from machine to machine
         spoiled = FAULTS[fault](f, values)
         if spoiled is not None and done < 2:
             done += 1
@@ -142,7 +141,7 @@ def planted(fault: str) -> Iterator[str]:
 
 
 def other_digits() -> Iterator[str]:
-    """Six digits of every scheme that is known; and numbers as text."""
+    """Results of every known scheme with six digits; and numbers as texts."""
     case = Case(**BETA_5.motion, step=BETA_5.step)
     report = march(case)
     for part, rules in KNOWN.items():
@@ -159,7 +158,7 @@ def other_digits() -> Iterator[str]:
     yield from said("numbers as text, with commas", Book(f))
 
 
-# ---- what is said of them
+# ---- what is said about them
 
 
 def checked(book: Book) -> Check:
@@ -169,12 +168,12 @@ def checked(book: Book) -> Check:
 
 
 def whole(title: str, book: Book) -> Iterator[str]:
-    """All that a user reads about a workbook."""
+    """Everything that a user reads about a workbook."""
     yield from _told(title, check_record(checked(book)))
 
 
 def compared(title: str, edits: Edits) -> Iterator[str]:
-    """What `coldspray diff` says of two workbooks."""
+    """What `coldspray diff` says about two workbooks."""
     given = dict(edits)
     before = edited(start(edits), [_edit(text) for word, text in edits if word == "before"])
     with tempfile.TemporaryDirectory() as folder:
@@ -197,13 +196,13 @@ def _told(title: str, record: Mapping[str, Any]) -> Iterator[str]:
 
 
 MOST = 7
-"""Differences of one workbook that are shown."""
+"""How many differences of a workbook are shown."""
 
 
 def said(title: str, book: Book) -> Iterator[str]:
-    """The answer in few lines: status, verdict, every difference, what was taken for what.
+    """The answer in a few lines: status, verdict, differences, and what was taken for what.
 
-    Of this only what is otherwise in the right workbook of its layout.
+    Of the last, only what is not as in the right workbook of the same layout.
     """
     try:
         record = check_record(checked(book))
@@ -213,15 +212,15 @@ def said(title: str, book: Book) -> Iterator[str]:
         return
     yield f"* {title} -> {int(not record['clean'])}"
     yield f"  {_shown(record['verdict'])}"
-    told = [
+    shown = [
         d
         for d in record["differences"]
         if d["kind"] != "printed number" and "no value is stored" not in d["explanation"]
     ]
-    for d in told[:MOST]:
+    for d in shown[:MOST]:
         yield f"  {'first: ' if d == record['first'] else ''}{_difference(d)}"
-    if len(told) > MOST:
-        yield f"  and {len(told) - MOST} more"
+    if len(shown) > MOST:
+        yield f"  and {len(shown) - MOST} more"
     for depth in record["final_depths"]:
         own, right = (_um(depth[name]) for name in ("found", "expected"))
         why = f", by {depth['explained_by']} alone" if depth["explained_by"] else ""
@@ -233,17 +232,16 @@ def said(title: str, book: Book) -> Iterator[str]:
         yield f"  {len(claims) - len(unmet)} of {len(claims)} printed numbers{not_so}"
     before = usual(book.f.name) * len(record["taken"])
     for taken, expected in zip(_taken(record), before, strict=False):
-        here = {entry.partition(" ")[0] for entry in taken}
-        gone = [role for entry in expected[1:] if (role := entry.partition(" ")[0]) not in here]
-        another = [entry for entry in taken if entry not in expected]
-        another += [f"no {role}" for role in gone]
-        if another:
-            yield f"  taken: {', '.join(another)}"
+        roles = {entry.partition(" ")[0] for entry in taken}
+        missing = [role for entry in expected[1:] if (role := entry.partition(" ")[0]) not in roles]
+        unusual = [entry for entry in taken if entry not in expected]
+        if unusual or missing:
+            yield f"  taken: {', '.join([*unusual, *(f'no {role}' for role in missing)])}"
 
 
 @cache
 def usual(layout: str) -> list[list[str]]:
-    """What is taken for what in the right workbook of a layout."""
+    """What was taken for what in the right workbook of a layout."""
     f = start([("layout", layout)])
     return list(_taken(check_record(checked(Book(f))))) if f.cells else [[]]
 
@@ -269,7 +267,7 @@ def _difference(d: Mapping[str, Any]) -> str:
 
 
 def _apart(result: object, expected: object) -> str:
-    """How far apart two numbers are that look the same here."""
+    """How far apart two numbers are, if they look the same with seven digits."""
     if not isinstance(result, float) or not isinstance(expected, float) or result == expected:
         return ""
     off = result / expected - 1 if expected else 1.0
@@ -285,7 +283,7 @@ def _number(value: float) -> str:
 
 
 def _shown(text: str) -> str:
-    """A text with seven digits of each number, and blanks that no longer depend on their number."""
+    """A text with seven digits of each number, and two blanks where columns were aligned."""
     text = re.sub(
         r"(?<![\w.])\d+\.\d+(?:[eE][-+]?\d+)?(?!\w)", lambda m: _number(float(m[0])), text
     )
@@ -293,7 +291,7 @@ def _shown(text: str) -> str:
 
 
 def page(title: str, book: Book) -> Iterator[str]:
-    """Which rows and columns the page draws, what it marks there; then the file for machines."""
+    """The rows and columns that the page draws, with the cells it marks; then the JUnit file."""
     result = checked(book)
     record = check_record(result) | {"file": "FILE"}
     yield f"* {title}"
@@ -333,7 +331,7 @@ SECTIONS: dict[str, Callable[[], Iterator[str]]] = {
 
 
 def section(name: str) -> str:
-    """A section of the file."""
+    """The text of a section of the file."""
     return "\n".join([f"## {name}", *SECTIONS[name](), "", ""])
 
 

@@ -1,4 +1,4 @@
-"""Files of foreign workbooks, as the programs of other people write them."""
+"""Write foreign workbooks to files, as different programs do."""
 
 import shutil
 import subprocess
@@ -12,7 +12,7 @@ Values = dict[Place, float | str | bool]
 
 
 def with_openpyxl(f: Foreign, path: Path) -> Path:
-    """Formulas without stored values, as scripts write them."""
+    """Write formulas without stored values, as scripts do."""
     from openpyxl import Workbook
     from openpyxl.workbook.defined_name import DefinedName
 
@@ -29,20 +29,17 @@ def with_openpyxl(f: Foreign, path: Path) -> Path:
 
 
 def calculated(f: Foreign) -> Values:
-    """What each formula gives, by an engine that the program under test does not use."""
+    """The value of each formula, by an engine that the program under test does not use."""
     from spreadsheets.engines import Formualizer, address
 
     with tempfile.TemporaryDirectory() as folder:
         result = Formualizer().recalculate(with_openpyxl(f, Path(folder, "plain.xlsx")))
-    return {
-        place: result[place[0]][address(place[1], place[2])]
-        for place in f.cells
-        if address(place[1], place[2]) in result[place[0]]
-    }
+    cells = ((place, result[place[0]], address(*place[1:])) for place in f.cells)
+    return {place: values[cell] for place, values, cell in cells if cell in values}
 
 
 def with_xlsxwriter(f: Foreign, path: Path, values: Values) -> Path:
-    """Formulas with their values, all 17 digits, as Excel stores them."""
+    """Write formulas with their values, all 17 digits of them, as Excel does."""
     import xlsxwriter
 
     with xlsxwriter.Workbook(path) as book:
@@ -50,22 +47,22 @@ def with_xlsxwriter(f: Foreign, path: Path, values: Values) -> Path:
         for (sheet, row, column), content in f.cells.items():
             if sheet not in sheets:
                 sheets[sheet] = book.add_worksheet(sheet)
-            place = sheets[sheet], row - 1, column - 1
+            at = row - 1, column - 1
             if isinstance(content, str) and content.startswith("="):
                 value = values.get((sheet, row, column), "")
                 exact = Exact(value) if isinstance(value, float) else value
-                place[0].write_formula(place[1], place[2], content, value=exact)
+                sheets[sheet].write_formula(*at, content, value=exact)
             elif isinstance(content, str):
-                place[0].write_string(place[1], place[2], content)
+                sheets[sheet].write_string(*at, content)
             else:
-                place[0].write_number(place[1], place[2], Exact(content))
+                sheets[sheet].write_number(*at, Exact(content))
         for name, meaning in f.names.items():
             book.define_name(name, f"={meaning}")
     return path
 
 
 class Exact(float):
-    """A float that is written with all its digits, not with the writer's 16."""
+    """A float that is written with all its digits, not with the 16 of XlsxWriter."""
 
     def __format__(self, _: str) -> str:
         return repr(float(self))
@@ -74,12 +71,12 @@ class Exact(float):
 
 
 def written(f: Foreign, path: Path, values: Values | None, wrong: Values | None) -> Path:
-    """A file without stored values; with them, some of them `wrong`, where there are such."""
+    """Write a file with the stored values, some of them `wrong`; if none are wrong, without any."""
     return with_xlsxwriter(f, path, (values or {}) | wrong) if wrong else with_openpyxl(f, path)
 
 
 def with_libreoffice(paths: Sequence[Path], folder: Path, kind: str = "xlsx") -> list[Path]:
-    """The same workbooks, calculated and saved by LibreOffice in one run."""
+    """The same workbooks, calculated and saved by LibreOffice in a single run."""
     soffice = shutil.which("soffice")
     assert soffice is not None
     profile = f"-env:UserInstallation={(folder / 'profile').as_uri()}"

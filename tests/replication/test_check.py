@@ -1,4 +1,4 @@
-"""`coldspray check` and `diff`: what is taken for what, what is said, how well it is done."""
+"""`coldspray check` and `diff`: how workbooks are read, what is reported, and how well."""
 
 import json
 import re
@@ -50,7 +50,7 @@ def test_the_rules_give_the_sheet_double_for_double(scheme: str, brake: Rule) ->
 
 def test_json_has_the_promised_keys_and_every_digit(tmp_path: Path) -> None:
     f = made("french", BETA_5)
-    f.cells[f.where[DEPTH, 40]] = 3.7e-6  # typed over a formula
+    f.cells[f.where[DEPTH, 40]] = 3.7e-6  # a number over a formula
     arguments = ("check", written(f, tmp_path), "--map", "target-density=Données!C5")
     status, out, err = coldspray(*arguments, "--json")
     record = json.loads(out)
@@ -91,7 +91,7 @@ def test_our_own_workbook_is_clean(saved_by: str, emitted: Path, tmp_path: Path)
         (emitted,) = writers.with_libreoffice([emitted], tmp_path)
     result = check(emitted)
     assert result.first is None
-    sheets = {f.table.sheet: f for f in result.examinations}
+    sheets = {exam.table.sheet: exam for exam in result.examinations}
     assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
     for sheet in ("Sheet beta 3", "Sheet beta 5"):
         places = {name: value.place for name, value in sheets[sheet].inputs.items()}
@@ -100,11 +100,11 @@ def test_our_own_workbook_is_clean(saved_by: str, emitted: Path, tmp_path: Path)
 
 
 def test_our_own_workbook_without_stored_values_has_none(emitted: Path, tmp_path: Path) -> None:
-    """Nor of the formulas that give an empty text, which ours stores."""
+    """Our workbook stores a value for every formula, also where that is an empty text."""
     load_workbook(emitted).save(tmp_path / "saved.xlsx")
-    none, told = "formulas: no value is stored", check_record(check(tmp_path / "saved.xlsx"))
-    assert any(d["explanation"].startswith("all 13,") for d in told["differences"])
-    assert none not in text(check_record(check(emitted)))
+    saved = check_record(check(tmp_path / "saved.xlsx"))
+    assert any(d["explanation"].startswith("all 13,") for d in saved["differences"])
+    assert "formulas: no value is stored" not in text(check_record(check(emitted)))
     notes = diff_record(diff(emitted, tmp_path / "saved.xlsx"))["notes"]
     assert [": for all 13," in note for note in notes] == [True]
 
@@ -114,37 +114,38 @@ def test_a_wrong_mass_of_our_own_workbook_is_told_once_for_each_table(emitted: P
     book["Inputs"]["F55"] = "=pi_*R_p^3*rho_p"  # which five tables read
     book.save(emitted)
     checked = check(emitted)
-    told = check_record(checked)
-    claims = [(claim["id"], claim["cell"]) for claim in told["claims"]]
-    unmet = [(d["sheet"], d["cell"]) for d in told["differences"] if d["kind"] == "printed number"]
-    assert len(claims) == len(set(claims)) > len(unmet) == len(set(unmet)) > 10
-    (depth,) = (
-        d for d in told["differences"] if (d["sheet"], d["cell"]) == ("Sheet beta 3", "K22")
-    )
-    assert depth["found"] == told["final_depths"][1]["found"]  # in m, as the cell has it
+    record = check_record(checked)
+    claims = [(claim["id"], claim["cell"]) for claim in record["claims"]]
+    unmet = {
+        (d["sheet"], d["cell"]): d for d in record["differences"] if d["kind"] == "printed number"
+    }
+    assert len(claims) == len(set(claims)) > len(unmet) == record["summary"]["printed number"] > 10
+    depth = unmet["Sheet beta 3", "K22"]
+    assert depth["found"] == record["final_depths"][1]["found"]  # in m, as the cell has it
     assert depth["expected"] == "10.0 um"
-    excerpt, *whole = told["final_depths"]
+    excerpt, *whole = record["final_depths"]
     assert (excerpt["sheet"], excerpt["found"]) == ("Table A-1", None)
-    assert told["first"]["final_depth"] is None  # nor has the excerpt one by its cause
-    lines = " ".join(text(told).split())
+    assert record["first"]["final_depth"] is None  # nor has the excerpt one by its cause
+    lines = " ".join(text(record).split())
     for table in whole:
         own = f"{table['sheet']}!{table['cells']}"
         assert lines.count(f"Inputs!F55 alone explains the final depth of {own};") == 1
-    assert "the final depth of Sheet beta 3!D10:D157 is 8.391408 um, and should" in told["verdict"]
-    drawn_page = html(told, checked.differences, checked.calculation)
+    wrong = "the final depth of Sheet beta 3!D10:D157 is 8.391408 um, and should"
+    assert wrong in record["verdict"]
+    drawn_page = html(record, checked.differences, checked.calculation)
     items = list(sound(drawn_page).iter(f"{HTML}li"))
     assert [int(item.get("value", 0)) for item in items] == [*range(1, len(items) + 1)]
-    assert len(items) == len(told["differences"])
-    heads = re.findall("<h2 id=.*>(.*): ([0-9]+)</h2>", drawn_page)
-    assert [int(number) for _, number in heads] == [1, len(unmet), len(items) - 1 - len(unmet)]
+    assert len(items) == len(record["differences"])
+    counts = re.findall("<h2 id=.*>.*: ([0-9]+)</h2>", drawn_page)
+    assert [int(number) for number in counts] == [1, len(unmet), len(items) - 1 - len(unmet)]
     said_first = f"1 difference from the report's sheet, {len(unmet)} printed numbers not met;"
-    assert told["verdict"].startswith(said_first)
+    assert record["verdict"].startswith(said_first)
 
 
 def test_a_text_over_an_input_of_our_own_workbook_is_named(emitted: Path) -> None:
-    """Its formulas guard themselves: none gives an error, and there is no table."""
+    """Its formulas test their inputs: none gives an error, and no table is found."""
     book = load_workbook(emitted)
-    book["Inputs"]["C21"] = "three"  # beta of some tables: the others are found
+    book["Inputs"]["C21"] = "three"  # the beta of some tables; the others are still found
     book.save(emitted)
     checked = check(emitted)
     first, silent = checked.first, [d for d in checked.differences if d.rank == (8,)]
@@ -169,7 +170,7 @@ def test_a_right_sheet_of_other_inputs_is_clean(
     tmp_path_factory: pytest.TempPathFactory,
     velocity: float, radius: float, densities: float, strength: float, share: float,
 ) -> None:  # fmt: skip
-    """Far from the report's, too, where its values do not tell which unit a number has."""
+    """Also far from the report's inputs, whose values then do not tell the unit of a number."""
     velocity, radius, densities, strength, step = (
         float(f"{number:.3g}")
         for number in (velocity, radius, densities, strength, share * radius / velocity)
@@ -192,7 +193,7 @@ EVIL = "</td><script>alert(1)</script>\x9b31m\u202egnp.exe"
 
 
 def test_the_page_draws_the_sheet_and_no_content_reaches_it_or_the_terminal(tmp_path: Path) -> None:
-    """Names, heads, labels and texts made to break a terminal or a page; one fault to show."""
+    """Names, heads, labels and texts that would break a terminal or a page; and one fault."""
     f = made("table-a1", BETA_5)
     f.cells = {("Sheet<1>&'x\u202e", r, c): v for (_, r, c), v in f.cells.items()}
     sheet = next(iter(f.cells))[0]
@@ -280,7 +281,7 @@ def test_text_page_and_junit_are_those_of_check(tmp_path: Path) -> None:
     assert all(f'name="{kind}"' in junit.read_text("utf-8") for kind in KINDS_OF_DIFF)
 
 
-# What is said of some five hundred workbooks, against the file that a person read
+# What is said about some five hundred workbooks, compared with the file that a person has read
 
 BEFORE = Path(said.__file__).with_suffix(".txt").read_text("utf-8")
 DOCUMENT = (Path(__file__).parents[2] / "docs" / "check.md").read_text("utf-8")

@@ -1,4 +1,4 @@
-"""Somebody else's workbook: what it holds, what its formulas read, and what is refused."""
+"""Reading somebody else's workbook: its cells, its formulas, and what is refused."""
 
 import zipfile
 from collections.abc import Callable
@@ -21,7 +21,7 @@ SHEET = "xl/worksheets/sheet1.xml"
 
 @pytest.fixture
 def plain(tmp_path: Path) -> Path:
-    """A small right workbook."""
+    """A small workbook without faults."""
     from openpyxl import Workbook
 
     book = Workbook()
@@ -33,7 +33,7 @@ def plain(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def shared(tmp_path: Path) -> Path:
-    """One whose texts stand in a part of their own, with a table and a number of 17 digits."""
+    """A workbook with shared texts, a table, an array formula and a number of 17 digits."""
     import xlsxwriter
 
     with xlsxwriter.Workbook(tmp_path / "shared.xlsx") as book:
@@ -50,7 +50,7 @@ def shared(tmp_path: Path) -> Path:
 
 
 def spoiled(path: Path, change: Callable[[bytes], bytes], part: str = SHEET) -> Path:
-    """The same workbook with a part of it changed."""
+    """A copy of a workbook with one part changed."""
     another = path.with_name("spoiled.xlsx")
     content = rewritten(path.read_bytes(), lambda n, data: change(data) if n == part else data)
     another.write_bytes(content)
@@ -58,6 +58,7 @@ def spoiled(path: Path, change: Callable[[bytes], bytes], part: str = SHEET) -> 
 
 
 def refusal(path: Path) -> str:
+    """The message that refuses to read a file."""
     with pytest.raises(WorkbookError) as refused:
         read(path)
     message = str(refused.value)
@@ -66,7 +67,8 @@ def refusal(path: Path) -> str:
     return message
 
 
-def cells_of(rows: bytes) -> Callable[[bytes], bytes]:
+def adding(rows: bytes) -> Callable[[bytes], bytes]:
+    """A change that adds rows to a sheet."""
     return lambda data: data.replace(b"</sheetData>", rows + b"</sheetData>")
 
 
@@ -77,13 +79,16 @@ def cells_of(rows: bytes) -> Callable[[bytes], bytes]:
 def test_formulas_are_read_with_their_values_and_calculated_in_order(
     question: str, answer: str, plain: Path
 ) -> None:
-    def cell(book: Book, calculation: Calculation, row: int, column: int) -> str:
-        own, at = book["Sheet", row, column], ("Sheet", row, column)
-        formula = f"{{{own.formula}}}" if own.array else own.formula
-        why = f" as stored: {calculation.uncomputed[at]}" if at in calculation.uncomputed else ""
-        return f"{address(row, column)} {formula or 'typed'} is {calculation.values.get(at)}{why}"
+    def shown(calculation: Calculation, row: int, column: int) -> str:
+        at = ("Sheet", row, column)
+        cell, why = calculation.book[at], calculation.uncomputed.get(at)
+        formula = f"{{{cell.formula}}}" if cell.array else cell.formula
+        stored = f" as stored: {why}" if why else ""
+        return (
+            f"{address(row, column)} {formula or 'typed'} is {calculation.values.get(at)}{stored}"
+        )
 
-    def told() -> str:
+    def read_cells() -> str:
         book = read(path)
         calculation = calculate(book)
         assert calculation.order.keys() == calculation.formulas.keys()
@@ -91,10 +96,10 @@ def test_formulas_are_read_with_their_values_and_calculated_in_order(
         assert calculation.values["Sheet", 2, 2] == 0.2
         order = {at[1:]: place for at, place in calculation.order.items()}
         cells = sorted(book.sheets["Sheet"], key=lambda at: (order.get(at, -1), at))
-        return "; ".join(cell(book, calculation, *at) for at in cells if at[0] > 2 or not question)
+        return "; ".join(shown(calculation, *at) for at in cells if at[0] > 2 or not question)
 
-    path = spoiled(plain, cells_of(question.encode()))
-    assert said(told).replace(str(path), "FILE") == answer
+    path = spoiled(plain, adding(question.encode()))
+    assert said(read_cells).replace(str(path), "FILE") == answer
 
 
 def test_cells_of_a_table_are_addresses(tmp_path: Path) -> None:
@@ -125,7 +130,7 @@ def test_cells_of_a_table_are_addresses(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", [SHEET, "xl/workbook.xml", "xl/sharedStrings.xml"])
 def test_document_types_are_refused(shared: Path, part: str) -> None:
-    """Whether they declare entities, of which `said.txt` has a case, or lead outside."""
+    """Also one that leads outside the file; `said.txt` has one that declares entities."""
     declared = b'?><!DOCTYPE x SYSTEM "http://127.0.0.1/x.dtd">'
     path = spoiled(shared, lambda data: data.replace(b"?>", declared, 1), part)
     assert "declares a document type" in refusal(path)
@@ -140,7 +145,7 @@ def test_what_is_too_much_is_refused(
     question: str, answer: str, plain: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     limit, value, rows = eval(question, {"ROW": ROW, "ARRAY": ARRAY})
-    path = spoiled(plain, cells_of(rows))
+    path = spoiled(plain, adding(rows))
     assert path.stat().st_size < 2**15
     assert read(path)
     monkeypatch.setattr(foreign, limit, value)
@@ -188,7 +193,7 @@ def test_macros_and_links_are_mentioned(plain: Path) -> None:
 
 
 def test_a_password_and_a_changed_archive_are_refused(plain: Path) -> None:
-    """Texts, folders, devices, what is cut and what is absent stand in `said.txt`."""
+    """`said.txt` has texts, folders, devices, and files that are cut off or absent."""
     sealed = plain.with_name("sealed.xlsx")
     sealed.write_bytes(bytes.fromhex("D0CF11E0A1B11AE1") + bytes(999))
     assert "has a password" in refusal(sealed)
@@ -212,7 +217,7 @@ def test_formulas_that_read_too_much_are_left_alone(
         b'<row r="%d"><c r="A%d"><f>SUMPRODUCT(A1:C90,A1:C90)</f><v>3</v></c></row>' % (r, r)
         for r in range(100, 110)
     )
-    calculation = calculate(read(spoiled(plain, cells_of(rows))))
+    calculation = calculate(read(spoiled(plain, adding(rows))))
     assert len(calculation.uncomputed) == 10
     assert calculation.values["Sheet", 2, 2] == 0.2
 
@@ -232,18 +237,18 @@ BOOK = Book(Path("book.xlsx"), {"S": {}, "my sheet": {}, "Données": {}}, NAMES)
 @kept("spreadsheets/kept.txt", "Formulas in D9, as an engine is given them")
 def test_what_a_formula_refers_to(question: str, answer: str) -> None:
     formula = parse(question, ("S", 9, 4), BOOK)
-    told = f"not computed: {formula.obstacle}"
+    shown = f"not computed: {formula.obstacle}"
     if formula.obstacle is None:
         cells = "; ".join(
             f"rows {a.top} to {a.bottom}, columns {a.left} to {a.right} of {a.sheet}"
             for a in formula.areas
         )
-        short = {"S": "S0", "my sheet": "S1", "Données": "S2"}
+        short = {name: f"S{index}" for index, name in enumerate(BOOK.sheets)}
         numbers = f", numbers {formula.literals}" if formula.literals else ""
-        told = f"{formula.for_engine(short)}, reads {cells or 'nothing'}{numbers}"
-    assert told == answer
+        shown = f"{formula.for_engine(short)}, reads {cells or 'nothing'}{numbers}"
+    assert shown == answer
 
 
 @given(st.text(alphabet="ABCabc019$!:'\"(){}[]+-*/^&,;.%#@ \t\nµ€", max_size=60))
-def test_no_text_is_too_odd(text: str) -> None:
+def test_any_text_is_parsed(text: str) -> None:
     parse(f"={text}", ("S", 9, 4), BOOK)
