@@ -51,10 +51,7 @@ _OF_MATERIALS = _DENSITIES | {"flow_stress"}
 
 @cache
 def report_inputs() -> dict[str, tuple[float, ...]]:
-    """Return the report's inputs in SI units, with both betas and steps.
-
-    The report does not print the target density; it is inferred.
-    """
+    """Return the report's inputs in SI units: both betas and steps, an inferred target density."""
     five, three = claims_of_case(5), claims_of_case(3)
     names = {role: (claim,) for role, claim in five.items()} | {
         "diameter": ("a1-diameter",),
@@ -81,7 +78,7 @@ def find(
     """Return a table's inputs, units and rows, ready for `judge`.
 
     `candidates` are the numbers of `numbers_beside`, `mapped` the cells that the user named, `read`
-    the cells that the table reads (from `read_beside`), `elsewhere` those that other tables read.
+    the cells that the table reads (from `read_by`), `elsewhere` those that other tables read.
     Raises ValueError, with the option that would help, if two cells could be the same input and the
     rows do not decide between them.
     """
@@ -161,12 +158,6 @@ def _own(
     return nearest[0] if len(nearest) == 1 else None
 
 
-def read_beside(table: Table) -> dict[Position, int]:
-    """Return the cells beside a table that it reads, with the number of steps to them."""
-    read = _read(table.places, table.calculation)
-    return {place: far for place, far in read.items() if place not in table.places}
-
-
 def _as_mapped(
     mapped: Mapping[str, Position], candidates: Sequence[Input], table: Table
 ) -> dict[str, list[Input]]:
@@ -223,7 +214,7 @@ def _either_density(cells: Sequence[Input], calculation: Calculation) -> dict[st
     """
     unsaid = [cell for cell in cells if cell.place and cell.roles == _DENSITIES]
     places = {cell.place for cell in unsaid}
-    converts = any(places & _read([p], calculation).keys() - {p} for p in places if p)
+    converts = any(places & read_by([p], calculation).keys() for p in places if p)
     if len(unsaid) != 2 or converts or any(len(c.roles & _DENSITIES) == 1 for c in cells):
         return {}
     report = report_inputs()
@@ -251,11 +242,8 @@ def _typed_first(
     }
 
 
-def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
-    """Return every cell that some cells read, directly or not, with the number of steps to it.
-
-    The cells themselves are included, with 0.
-    """
+def read_by(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
+    """Return every other cell that some cells read, with the number of steps to it."""
     edge = list(cells)
     distances = dict.fromkeys(edge, 0)
     while edge:
@@ -263,7 +251,7 @@ def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position,
         areas = (area for place in edge for area in calculation.areas(place) if area.cells <= FEW)
         edge = list({p for area in areas for p in area.places() if p not in distances})
         distances.update(dict.fromkeys(edge, distance))
-    return distances
+    return {place: distance for place, distance in distances.items() if distance}
 
 
 def _nearest(
@@ -413,24 +401,22 @@ def _settled(
     table: Table, choices: Mapping[str, list[Input]], feeding: Mapping[str, Input], pi: float
 ) -> Examination:
     """Return the examination with one cell for each role, chosen so that the rows agree best."""
-    choices = {
+    options = {
         role: [_as_converted(cell, table.calculation) for cell in cells]
         for role, cells in choices.items()
     }
-    if (step := next(iter(choices.get("step", ())), None)) and step.unit is None:
+    if "step" in options and (step := options["step"][0]).unit is None:
         # Its unit is that of the time column, or the one that gives it the report's magnitude.
         typed = replace(step, si=scaled(step.si, 1 / step.factor))
-        choices["step"] = [*choices["step"], as_role(typed, "step", report_inputs())]
-    several = {
-        role: cells
-        for role, cells in choices.items()
-        if any(not math.isclose(cell.si, cells[0].si, rel_tol=1e-12) for cell in cells)
-    }
-    chosen = {role: cells[0] for role, cells in choices.items()}
+        options["step"].append(as_role(typed, "step", report_inputs()))
+    for role, cells in options.items():
+        if all(math.isclose(cell.si, cells[0].si, rel_tol=1e-12) for cell in cells):
+            options[role] = cells[:1]
+    several = [role for role, cells in options.items() if len(cells) > 1]
     tried: list[tuple[float, float, Examination]] = []
-    for picked in islice(product(*several.values()), _MAX_CHOICES):
-        inputs = chosen | dict(zip(several, picked, strict=True))
-        densities = [inputs[role].place for role in _DENSITIES & several.keys()]
+    for picked in islice(product(*options.values()), _MAX_CHOICES):
+        inputs = dict(zip(options, picked, strict=True))
+        densities = [inputs[role].place for role in _DENSITIES.intersection(several)]
         if len(densities) == 2 and densities[0] == densities[1]:
             continue  # a cell is not the density of both
         examination = _examined(table, inputs, pi, feeding)
@@ -441,8 +427,8 @@ def _settled(
     places = {entry.place for entry in examination.inputs.values()}
     rivals = [rival for agreement, _, rival in tried if best - agreement < 0.2]
     if any({entry.place for entry in rival.inputs.values()} != places for rival in rivals):
-        role, cells = next(iter(several.items()))
-        alike = dict.fromkeys(address(c.place, True) for c in cells if c.place)
+        role = several[0]
+        alike = dict.fromkeys(address(cell.place, True) for cell in options[role] if cell.place)
         where = " and ".join(list(alike)[:3])
         raise ValueError(f"{where} could each be {title(role)}: give --map {role}=CELL")
     return examination

@@ -42,11 +42,9 @@ ROUNDED = 12
 _SAMPLE = 500
 """About how many rows are compared to decide whether two lines belong together."""
 _CLOSE = 0.02
-"""Relative tolerance for a ratio that repeats from row to row. The velocity mostly falls by 1 % a
-row, so that of either end of the row passes."""
+"""How nearly a ratio must repeat from row to row: a velocity mostly falls by 1 % a row."""
 NEAR_END = 2
-"""A cell that is only called a depth may show any row; if it shows one of the last few, it is taken
-to be meant as the final depth."""
+"""Rows before the last: a depth not called final that shows one of them is meant to be final."""
 FEW = 64
 """The most cells of a range that are looked at one by one; larger ranges are no inputs."""
 _SURE = 0.75
@@ -431,9 +429,9 @@ class Table:
         """The only labelled cell that shows a depth near the end, whatever language labels it."""
         values, depth = self.calculation.values, self.lines["depth"]
         shown = []
-        for (sheet, row, column), formula in self.calculation.formulas.items():
-            corners = [area.corner for area in formula.areas if area.cells == 1]
-            at = depth.index(corners[0]) if len(corners) == len(formula.areas) == 1 else None
+        for sheet, row, column in self.calculation.formulas:
+            _, *read = self.calculation.chain((sheet, row, column))
+            at = depth.index(read[0]) if read else None
             text = values.get(label := (sheet, row, column - 1))
             # A number in the label may be that of a row.
             is_labelled = isinstance(text, str) and not (is_unit(text) or re.search(r"\d", text))
@@ -645,10 +643,10 @@ def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table:
     initial = _at_beginning(depth, speed, beside)
     roles = {"depth": depth, "velocity_initial" if initial else "velocity_final": speed}
     for role in ("velocity_final" if initial else "velocity_initial", "deceleration", "time"):
-        left = [line for line in beside if line not in roles.values()]
-        if left:
-            fits = {line: _fits(role, line, speed, initial) for line in left}
-            best = max(left, key=lambda line: (fits[line], -abs(line.number - depth.number)))
+        free = [line for line in beside if line not in roles.values()]
+        fits = {line: _fits(role, line, speed, initial) for line in free}
+        if fits:
+            best = max(fits, key=lambda line: (fits[line], -abs(line.number - depth.number)))
             if fits[best] >= 0.9:
                 roles[role] = best
     zeros = [at for at in range(depth.first, min(depth.first + 4, last)) if depth.at(at) == 0]
@@ -678,10 +676,7 @@ def _at_beginning(depth: Line, speed: Line, beside: Sequence[Line]) -> bool:
 
 
 def _tied(line: Line, source: Line, back: int, close: float = _CLOSE) -> float:
-    """Return the share of rows where a line changes by a constant times the source's value.
-
-    The source's row is `back` rows before that of the change.
-    """
+    """Return the share of rows where a line changes in proportion to the source `back` rows ago."""
     rows = range(source.first, source.last + 1)
     return _constant(((line.change(at + back), source.at(at)) for at in rows), close)
 
@@ -711,10 +706,7 @@ def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
 
 
 def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
-    """Return the index of the last row of the motion.
-
-    Rows after the standstill that hold zeros, or repeat the row before, do not count.
-    """
+    """Return the index of the last row, without zeros and repeated rows after the standstill."""
     for at in range(last, zero + 2, -1):
         x, v = depth.at(at), speed.at(at)
         stays = x == depth.at(at - 1) and v == speed.at(at - 1)

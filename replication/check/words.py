@@ -33,10 +33,7 @@ _MAX_LABEL = 80
 
 @cache
 def _plain(text: str) -> str:
-    """Return a text in small letters without sub- and superscripts, marks and double blanks.
-
-    "in SI units" at the end is dropped, too.
-    """
+    """Return a text in small letters, without superscripts, marks, double blanks or "(SI)"."""
     text = unicodedata.normalize("NFKC", text[:_MAX_LABEL]).casefold().replace("−", "-")
     bare = re.sub(r"\s+", " ", re.sub(r"[=:;^]+|\*\*", "", text)).strip()
     return re.sub(r" (?:in )?[\[(]?si(?: units?| unit[ée]s?)?[\])]?$", "", bare)
@@ -316,9 +313,7 @@ def times_too(power: int) -> str:
 
 
 def scaled(value: float, factor: Fraction) -> float:
-    """Return a number times a factor, rounded once from the decimal that was typed.
-
-    Return infinity beyond the range of doubles.
+    """Return a number times a factor, rounded once from the decimal typed; inf beyond doubles.
 
     >>> scaled(11.0, Fraction(1, 1_000_000)) == 11e-6
     True

@@ -11,7 +11,7 @@ from pathlib import Path
 from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
 from replication.check.examination import NO_FAULT, Difference, Examination, near
-from replication.check.inputs import find, label_of, numbers_beside, read_beside, report_inputs
+from replication.check.inputs import find, label_of, numbers_beside, read_by, report_inputs
 from replication.check.judge import judge
 from replication.check.results import has_input, misread
 from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
@@ -97,7 +97,7 @@ def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
         if not read_tables:
             raise ValueError(_nothing(calculation))
         beside = list(numbers_beside(calculation, read_tables))
-        reads = [read_beside(table) for table in read_tables]
+        reads = [read_by(table.places, calculation) for table in read_tables]
         examinations = [
             find(table, beside, cells, reads[n], set().union(*reads[:n], *reads[n + 1 :]))
             for n, table in enumerate(read_tables)
@@ -154,10 +154,7 @@ def _mapped(
 
 
 def _named_line(given: str, where: str, area: Area, calculation: Calculation) -> Line:
-    """Return the column or row that the user named.
-
-    Raises ValueError if it has too few numbers, or a head with the unit of something else.
-    """
+    """Return the column or row that the user named. Raises ValueError if it cannot be that."""
     across = area.top == area.bottom
     direction = (area.sheet, across)
     alike = (line for line in lines(calculation) if (line.sheet, line.across) == direction)
