@@ -1,8 +1,8 @@
-"""The inputs of a table: which cells hold them, in which units, and what the rows say of the rest.
+"""Find the inputs of a table: the cells that hold them, their units, and those that no cell holds.
 
-Only cells that the table's formulas read count as its inputs, through however many cells between.
-They are told apart by label, name, unit and value. What no cell holds is taken from the formulas'
-own numbers, or solved back from the rows, and is said to be so.
+Only cells that the table's formulas read, directly or through other cells, count as its inputs.
+They are recognized by label, defined name, unit and value. An input that no cell holds is taken
+from the numbers typed into formulas, or solved back from the rows; the output says so.
 """
 
 import math
@@ -35,18 +35,23 @@ from spreadsheets.foreign import Position
 from spreadsheets.recalculation import Calculation
 
 _MAX_CANDIDATES = 4_000
+"""The most numbers beside the tables that are looked at."""
 _MAX_CHOICES = 64
+"""The most combinations of cells for inputs that are tried."""
 RESTS_ON = {
     "diameter": ("radius",),
     "mass": ("radius", "particle_density"),
     "resistance": ("beta", "flow_stress"),
 }
-"""What follows from other inputs, and from which."""
+"""The inputs that follow from others, and from which."""
+_DENSITIES = frozenset({"particle_density", "target_density"})
+_OF_MATERIALS = _DENSITIES | {"flow_stress"}
+"""Properties of the materials, which the tables of a workbook share."""
 
 
 @cache
 def report_inputs() -> dict[str, tuple[float, ...]]:
-    """The report's inputs in SI, for both betas and steps; its target density as inferred."""
+    """Return the report's inputs in SI units: both betas and steps, an inferred target density."""
     five, three = claims_of_case(5), claims_of_case(3)
     names = {role: (claim,) for role, claim in five.items()} | {
         "diameter": ("a1-diameter",),
@@ -70,12 +75,12 @@ def find(
     read: Mapping[Position, int],
     elsewhere: Set[Position],
 ) -> Examination:
-    """What is known of a table before it is judged.
+    """Return a table's inputs, units and rows, ready for `judge`.
 
-    `candidates` are what `numbers_beside` gives, `mapped` the cells that the user named,
-    `read` the cells that it reads, as `read_beside` gives them, `elsewhere` those that other tables
-    read. Raises ValueError, saying what to give, when two cells could be the same input and the
-    rows do not decide.
+    `candidates` are the numbers of `numbers_beside`, `mapped` the cells that the user named, `read`
+    the cells that the table reads (from `read_by`), `elsewhere` those that other tables read.
+    Raises ValueError, with the option that would help, if two cells could be the same input and the
+    rows do not decide between them.
     """
     calculation = table.calculation
     names = {name for formula in calculation.formulas.values() for name in formula.names}
@@ -84,67 +89,64 @@ def find(
         return cell.place in read if cell.place else cell.label.upper() in names
 
     reads = [cell for cell in candidates if not (read or names) or is_read(cell)]
-    reads = _told_by_mass(_not_made_of(reads, calculation), calculation)
+    reads = _not_made_of(reads, calculation)
     nearest = {
         role: _nearest(cells, read, calculation)
-        for role, cells in _by_role(reads, bool(read), _hinted(table)).items()
+        for role, cells in _by_role(reads, _hinted(table), bool(read)).items()
     }
     nearest |= _either_density(reads, calculation)
     choices = _typed_first(nearest, reads, calculation) | _as_mapped(mapped, candidates, table)
     seen = {*read, *calculation.formulas}
     idle = [c for c in candidates if c.label and c.place not in seen and c not in reads]
-    unread = _by_role(idle, True)
-    # Whoever ends the rows by hand reads the stop velocity with his eyes; a wrong formula for the
-    # mass need not read the density; and where decelerations are typed, nothing reads an input.
+    unread = _by_role(idle)
+    # No formula reads the stop velocity where the rows are ended by hand, nor the particle density
+    # where the formula for the mass is wrong, nor any input where the decelerations are typed.
     brake = table.lines.get("deceleration")
     is_typed = brake is not None and not any(map(brake.formula, range(brake.first, brake.last + 1)))
-    given = {*choices, *unread}
-    free = [role for role in unread if not given.issuperset(RESTS_ON.get(role, ("",)))]
-    for role in free if is_typed else ("stop_velocity", "particle_density"):
-        lone = [cell for cell in unread.get(role, ()) if cell.place not in elsewhere]
-        if role not in choices and len(lone) == 1:
-            choices[role] = lone
+    known = {*choices, *unread}
+    independent = [role for role in unread if not known.issuperset(RESTS_ON.get(role, ("",)))]
+    for role in independent if is_typed else ("stop_velocity", "particle_density"):
+        free = [cell for cell in unread.get(role, ()) if cell.place not in elsewhere]
+        if role not in choices and len(free) == 1:
+            choices[role] = free
             del unread[role]
-    if not {*choices, *unread}.issuperset(RESTS_ON["resistance"]):
-        called = [c for c in nearest.get("resistance", ()) if c.how != "value" and c.si > 0]
-        if called:  # whatever else its formula reads, it is the resistance
-            choices.setdefault("resistance", called)
+    if not known.issuperset(RESTS_ON["resistance"]):
+        labelled = [c for c in nearest.get("resistance", ()) if c.how != "value" and c.si > 0]
+        if labelled:  # its label outweighs whatever else its formula reads
+            choices.setdefault("resistance", labelled)
     feeding = _feeding({**nearest, **choices}, reads, calculation)
-    rounded = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
-    examination = _settled(table, choices, feeding, next(rounded, math.pi))
-    left = {role: cells[0] for role, cells in nearest.items() if cells[0].place}
-    settled = {role: entry for role, entry in examination.inputs.items() if entry.place}
-    derived = {r: c for r, c in {**left, **settled, **examination.derived}.items() if r in RESTS_ON}
-    # Mass and diameter are computed for nothing where their values are typed into the rows.
+    stored_pi = (cell.si for cell in reads if math.isclose(cell.si, math.pi, rel_tol=1e-14))
+    examination = _settled(table, choices, feeding, next(stored_pi, math.pi))
+    first = {role: cells[0] for role, cells in nearest.items()}
+    found = (first, examination.inputs, examination.derived)
+    cells = ((role, cell) for by_role in found for role, cell in by_role.items())
+    derived = {role: cell for role, cell in cells if role in RESTS_ON and cell.place}
+    # Nothing reads the cell of a mass or diameter whose value is typed into the rows.
     unused = calculation.formulas.keys() - read.keys() - elsewhere if read else ()
     computed = [c for c in candidates if c.roles & RESTS_ON.keys() and c.place in unused]
-    by_role = _by_role(computed, False)
-    unread |= {role: cells for role, cells in by_role.items() if role not in derived}
-    own = [_own(cells, examination, read, elsewhere) for cells in unread.values()]
-    single = tuple(cell for cell in own if cell)
-    return replace(examination, read=frozenset(read), derived=derived, unread=single)
-
-
-_OF_MATERIALS = frozenset({"particle_density", "target_density", "flow_stress"})
+    unread |= {r: cells for r, cells in _by_role(computed).items() if r not in derived}
+    single = (_own(cells, examination, read, elsewhere) for cells in unread.values())
+    own = tuple(filter(None, single))
+    return replace(examination, read=frozenset(read), derived=derived, unread=own)
 
 
 def _own(
-    cells: Sequence[Input], f: Examination, read: Collection[Position], elsewhere: Set[Position]
+    cells: Sequence[Input], exam: Examination, read: Collection[Position], elsewhere: Set[Position]
 ) -> Input | None:
-    """Of cells for one input that a table does not read the one that it should; None if not clear.
+    """Return the one of several unread cells for an input that the table should read.
 
-    What another table reads is this one's only if it stands among this one's inputs with the value
-    that the rows take, or is a property of the materials, which tables share. Of several, it is the
-    nearest to cells that the table reads.
+    A cell that another table reads counts only if it holds the value that the rows take, or is a
+    property of the materials. Among several the one nearest to cells that the table reads is
+    chosen; None if that is not unique.
     """
-    used = f.inputs.get(cells[0].role)
-    sheets = {f.table.sheet, *(place[0] for place in read)}
+    used = exam.inputs.get(cells[0].role)
+    sheets = {exam.table.sheet, *(place[0] for place in read)}
 
     def rank(cell: Input) -> tuple[bool, float]:
-        alike = used is not None and near(cell.si, used.si)
-        _, row, column = place = cell.place or ("", 0, 0)
-        far = (abs(p[1] - row) + abs(p[2] - column) for p in read if p[0] == place[0])
-        return not alike, min(far, default=math.inf)
+        is_used = used is not None and near(cell.si, used.si)
+        sheet, row, column = cell.place or ("", 0, 0)
+        distances = (abs(p[1] - row) + abs(p[2] - column) for p in read if p[0] == sheet)
+        return not is_used, min(distances, default=math.inf)
 
     ranks = {
         cell: rank(cell)
@@ -156,16 +158,10 @@ def _own(
     return nearest[0] if len(nearest) == 1 else None
 
 
-def read_beside(table: Table) -> dict[Position, int]:
-    """The cells beside a table that its formulas read, and through how many others."""
-    read = _read(table.places, table.calculation)
-    return {place: far for place, far in read.items() if place not in table.places}
-
-
 def _as_mapped(
     mapped: Mapping[str, Position], candidates: Sequence[Input], table: Table
 ) -> dict[str, list[Input]]:
-    """The cells that the user named, as inputs. Raises ValueError for one without a number."""
+    """Return the cells named by the user as inputs. Raises ValueError for one without a number."""
     inputs = {}
     for role, place in mapped.items():
         value = table.calculation.number(place)
@@ -179,9 +175,10 @@ def _as_mapped(
 def _feeding(
     by_role: Mapping[str, Sequence[Input]], reads: Sequence[Input], calculation: Calculation
 ) -> dict[str, Input]:
-    """The cells of mass, diameter and resistance, by label or by what they read.
+    """Return the cells of mass, diameter and resistance, found by label or by what they read.
 
-    One without a known label is the mass if its formula reads radius and density and nothing else.
+    A cell without a known label is the mass if its formula reads radius and density and nothing
+    else, and the resistance likewise.
     """
     feeding = {role: cells[0] for role, cells in by_role.items() if role in RESTS_ON}
     for role in ("mass", "resistance"):
@@ -194,12 +191,15 @@ def _feeding(
 
 
 def _not_made_of(cells: list[Input], calculation: Calculation) -> list[Input]:
-    """The cells; of those made of an input of their name and others, as R_t/M is, the name goes."""
-    called = {cell.place: cell.roles for cell in cells}
+    """Return the cells, without the label of those that combine the input they name with others.
+
+    R_t/M is such a cell: it names the resistance, but is computed from it and the mass.
+    """
+    roles_at = {cell.place: cell.roles for cell in cells}
 
     def named(cell: Input) -> Input:
         of = {name for role in cell.roles for name in RESTS_ON.get(role, ())}
-        read = [called.get(area.corner) for area in calculation.areas(cell.place)]
+        read = [roles_at.get(area.corner) for area in calculation.areas(cell.place)]
         alike = {bool(cell.roles & roles) for roles in read if roles and not roles & of}
         is_made = len(alike) == 2 and cell.unit is None
         return replace(cell, roles=frozenset(), label="") if is_made else cell
@@ -207,36 +207,14 @@ def _not_made_of(cells: list[Input], calculation: Calculation) -> list[Input]:
     return list(map(named, cells))
 
 
-_DENSITIES = frozenset({"particle_density", "target_density"})
-
-
-def _told_by_mass(cells: list[Input], calculation: Calculation) -> list[Input]:
-    """The cells; of densities whose labels do not say whose, that which the mass reads is said so.
-
-    It is the particle's.
-    """
-    unsaid = {cell.place for cell in cells if cell.place and cell.roles == _DENSITIES}
-    masses = (c.place for c in cells if c.place and (c.roles == {"mass"} or c.unit in ("kg", "g")))
-    for place in masses:
-        of_particle = unsaid & _read([place], calculation).keys()
-        if len(of_particle) == 1 < len(unsaid):
-            whose: dict[Position | None, str] = dict.fromkeys(unsaid, "target_density")
-            whose |= dict.fromkeys(of_particle, "particle_density")
-            return [
-                replace(cell, roles=frozenset({whose[cell.place]})) if cell.place in whose else cell
-                for cell in cells
-            ]
-    return cells
-
-
 def _either_density(cells: Sequence[Input], calculation: Calculation) -> dict[str, list[Input]]:
-    """Two densities whose labels do not say of what, each as that of either: the rows decide.
+    """Return two densities whose labels do not say whose as choices for both: the rows decide.
 
-    Not if one is the other in another unit.
+    Return nothing if one is the other in another unit.
     """
     unsaid = [cell for cell in cells if cell.place and cell.roles == _DENSITIES]
     places = {cell.place for cell in unsaid}
-    converts = any(places & _read([p], calculation).keys() - {p} for p in places if p)
+    converts = any(places & read_by([p], calculation).keys() for p in places if p)
     if len(unsaid) != 2 or converts or any(len(c.roles & _DENSITIES) == 1 for c in cells):
         return {}
     report = report_inputs()
@@ -246,9 +224,10 @@ def _either_density(cells: Sequence[Input], calculation: Calculation) -> dict[st
 def _typed_first(
     nearest: Mapping[str, list[Input]], reads: Sequence[Input], calculation: Calculation
 ) -> dict[str, list[Input]]:
-    """Of the cells for each role those that are typed, or that take over a typed one of that role.
+    """Return for each role the cells that are typed, or that read a typed cell of that role.
 
-    Where there are none, all; but what rests on other inputs is then left to them.
+    If a role has only computed cells, return them all; but leave out a role of `RESTS_ON`, which
+    then follows from its own inputs.
     """
     called = {(cell.place, role) for cell in reads for role in cell.roles}
 
@@ -263,34 +242,33 @@ def _typed_first(
     }
 
 
-def _read(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
-    """Every cell that some cells' formulas read, and through how many others; 0 for themselves."""
+def read_by(cells: Iterable[Position], calculation: Calculation) -> dict[Position, int]:
+    """Return every other cell that some cells read, with the number of steps to it."""
     edge = list(cells)
     distances = dict.fromkeys(edge, 0)
-    distance = 0
     while edge:
-        distance += 1
+        distance = distances[edge[0]] + 1
         areas = (area for place in edge for area in calculation.areas(place) if area.cells <= FEW)
         edge = list({p for area in areas for p in area.places() if p not in distances})
         distances.update(dict.fromkeys(edge, distance))
-    return distances
+    return {place: distance for place, distance in distances.items() if distance}
 
 
 def _nearest(
     cells: Sequence[Input], read: Mapping[Position, int], calculation: Calculation
 ) -> list[Input]:
-    """Of the cells for one role those that are read most directly; constants behind conversions."""
+    """Return the cells for a role that are read most directly, or the cells that they convert."""
     far = {cell: read.get(cell.place, 0) if cell.place else 0 for cell in cells}
-    near = [cell for cell in cells if far[cell] == min(far.values())]
-    sources = {calculation.source(cell.place) for cell in near if cell.place}
-    return [cell for cell in cells if cell.place in sources] or near
+    nearest = [cell for cell in cells if far[cell] == min(far.values())]
+    sources = {calculation.source(cell.place) for cell in nearest if cell.place}
+    return [cell for cell in cells if cell.place in sources] or nearest
 
 
 # ---- cells by label, name and value
 
 
 def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterator[Input]:
-    """Every number beside the tables, with its label or name; and names that are numbers."""
+    """Yield every number beside the tables with its label or name, and every name of a number."""
     inside = [line for table in tables for line in table.every_line]
     numbers = (place for place, value in calculation.values.items() if isinstance(value, float))
     beside = (place for place in numbers if not any(line.covers(place) for line in inside))
@@ -302,7 +280,7 @@ def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterato
             roles = input_roles(label, unit)
         value = calculation.number(place) or 0.0
         if not roles and label and unit and same_dimension(unit, INPUTS["particle_density"]):
-            roles = _DENSITIES  # in a language that is not known
+            roles = _DENSITIES  # the label is in an unknown language
         yield Input("", value, place, how, label, unit, roles=roles)
     for name, meaning in calculation.book.names.items():
         try:
@@ -315,17 +293,17 @@ def numbers_beside(calculation: Calculation, tables: Sequence[Table]) -> Iterato
 
 
 def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None]:
-    """The label of a number, at its left, above or at its right, and its unit."""
+    """Return the label of a number, from its left, above or its right, and its unit."""
     sheet, row, column = place
 
     def text(down: int, right: int) -> str:
         value = calculation.values.get((sheet, row + down, column + right))
         return value.strip() if isinstance(value, str) else ""
 
-    # Behind a label, a number and its unit stands what it was converted to.
+    # After a label, a number and its unit comes the converted number: the unit is not its own.
     another = calculation.number((sheet, row, column - 2)) is not None and text(0, -3)
     sides = (text(0, 1), "" if another else text(0, -1))
-    in_units = all(side and is_unit(side) for side in sides)  # a row of units, in which it has none
+    in_units = all(side and is_unit(side) for side in sides)  # a number in a row of units has none
     beside = (*(() if in_units else sides), text(-1, 0), text(1, 0))
     unit = next((unit for cell in beside if cell and (unit := is_unit(cell))), None)
     left: list[str] = []
@@ -333,14 +311,14 @@ def label_of(place: Position, calculation: Calculation) -> tuple[str, str | None
         number = calculation.number(nearer := (sheet, row, column - i))
         made = unit is None and calculation.source(nearer) == place
         ratio = (calculation.number(place) or 0.0) / number if made and number else 1.0
-        # What stands beyond another number is that number's label, and so is that of a number which
-        # is computed from this one, as beta from a hardness: but not if it is this in another unit.
+        # A text beyond another number labels that number, also if it is computed from this one, as
+        # beta from a hardness; but it labels both if they are the same in two units.
         if number is not None and (any(left) or power_of_ten(ratio) is None):
             break
         left.append(text(0, -i))
     for cells in (left, [text(-1, 0), text(-2, 0)], [text(0, 1), text(0, 2)]):
         words = [cell for cell in cells if cell and not is_unit(cell)]
-        if words:  # "β | resistance over flow stress | 3": the nearest that says something
+        if words:  # of "β | resistance over flow stress | 3" the nearest that names an input
             label = next((cell for cell in words if input_roles(cell, unit)), words[0])
             return label, unit or unit_in(label)
     return "", unit
@@ -350,21 +328,21 @@ Report = Mapping[str, tuple[float, ...]]
 
 
 def _by_role(
-    cells: Sequence[Input], all_read: bool, hints: Report | None = None
+    cells: Sequence[Input], hints: Report | None = None, all_read: bool = True
 ) -> dict[str, list[Input]]:
-    """Cells by role: first those whose label has one meaning, then by value for roles left over."""
+    """Return cells by role: those whose label has one meaning, then the others by their values.
+
+    The value decides only for roles that no label has. `hints` are the values to compare with, the
+    report's unless given.
+    """
     report = hints or report_inputs()
     by_role: dict[str, list[Input]] = {}
-    for cell in cells:
-        if len(cell.roles) == 1:
-            (role,) = cell.roles
-            by_role.setdefault(role, []).append(as_role(cell, role, report))
-    for cell in cells:
-        # A label that says nothing known may be in another language, if the table reads the cell.
+    for cell in sorted(cells, key=lambda cell: len(cell.roles) != 1):
+        # If the table reads the cell, an unknown label may be in another language.
         by_value = all_read or not cell.label or cell.unit is not None
         alike = (role for role in report if by_value and _like_the_report(cell, report[role], role))
-        left = [role for role in cell.roles or alike if role not in by_role]
-        if len(cell.roles) != 1 and left:
+        left = [r for r in cell.roles or alike if r not in by_role or len(cell.roles) == 1]
+        if left:
             nearest = min(left, key=lambda role: _distance(cell, report.get(role, ())))
             entry = replace(as_role(cell, nearest, report), how=cell.how if cell.roles else "value")
             by_role.setdefault(nearest, []).append(entry)
@@ -372,7 +350,7 @@ def _by_role(
 
 
 def _hinted(table: Table) -> Report:
-    """The report's values, and those that the table itself shows of velocity and step."""
+    """Return the report's values, and the velocity and the step that the table itself shows."""
     report = report_inputs()
     speeds = (table.number(role, k) for k in range(2) for role in table.lines if "velocity" in role)
     first = tuple(islice(filter(None, speeds), 1))
@@ -381,9 +359,10 @@ def _hinted(table: Table) -> Report:
 
 
 def _like_the_report(cell: Input, values: Iterable[float], role: str) -> bool:
-    """Whether it has the digits of the report's; a number without a unit has no other power.
+    """Whether a cell has one of the report's values, maybe in another unit, a power of ten.
 
-    Nor has the stop velocity of 1 m/s: a power of ten is a factor between units.
+    Inputs without a unit must be equal, and so must the stop velocity: as it is 1 m/s, any power of
+    ten would do.
     """
     powers = (power_of_ten(cell.si / value) for value in values)
     scalable = INPUTS[role] != "1" and role != "stop_velocity"
@@ -391,7 +370,7 @@ def _like_the_report(cell: Input, values: Iterable[float], role: str) -> bool:
 
 
 def _distance(cell: Input, values: Iterable[float]) -> float:
-    """How many powers of ten away from the report's it is."""
+    """Return how many powers of ten a cell lies from the nearest of the report's values."""
     si = scaled(cell.si, to_si(cell.unit or "1"))
     if not 0 < si < math.inf:
         return math.inf
@@ -399,9 +378,10 @@ def _distance(cell: Input, values: Iterable[float]) -> float:
 
 
 def as_role(cell: Input, role: str, report: Report) -> Input:
-    """The cell as an input, in SI by its unit; without one, by the nearest power of a thousand.
+    """Return the cell as an input, converted to SI by its unit.
 
-    If it has the digits of the report's, it is the power that lies between them.
+    Without a unit, the factor is the power of ten that makes it the report's value; if there is
+    none, the power of a thousand that brings it nearest to that.
     """
     factor = Fraction(1)
     if INPUTS[role] != "1" and cell.unit:
@@ -420,27 +400,25 @@ def as_role(cell: Input, role: str, report: Report) -> Input:
 def _settled(
     table: Table, choices: Mapping[str, list[Input]], feeding: Mapping[str, Input], pi: float
 ) -> Examination:
-    """One cell for each role: where there are several, those that the rows agree with."""
-    choices = {
+    """Return the examination with one cell for each role, chosen so that the rows agree best."""
+    options = {
         role: [_as_converted(cell, table.calculation) for cell in cells]
         for role, cells in choices.items()
     }
-    if (step := next(iter(choices.get("step", ())), None)) and step.unit is None:
-        # It is in the unit of the time column, or in that which gives it the report's size.
+    if "step" in options and (step := options["step"][0]).unit is None:
+        # Its unit is that of the time column, or the one that gives it the report's magnitude.
         typed = replace(step, si=scaled(step.si, 1 / step.factor))
-        choices["step"] = [*choices["step"], as_role(typed, "step", report_inputs())]
-    several = {
-        role: cells
-        for role, cells in choices.items()
-        if any(not math.isclose(cell.si, cells[0].si, rel_tol=1e-12) for cell in cells)
-    }
-    chosen = {role: cells[0] for role, cells in choices.items()}
+        options["step"].append(as_role(typed, "step", report_inputs()))
+    for role, cells in options.items():
+        if all(math.isclose(cell.si, cells[0].si, rel_tol=1e-12) for cell in cells):
+            options[role] = cells[:1]
+    several = [role for role, cells in options.items() if len(cells) > 1]
     tried: list[tuple[float, float, Examination]] = []
-    for picked in islice(product(*several.values()), _MAX_CHOICES):
-        inputs = chosen | dict(zip(several, picked, strict=True))
-        densities = [inputs[role].place for role in _DENSITIES & several.keys()]
+    for picked in islice(product(*options.values()), _MAX_CHOICES):
+        inputs = dict(zip(options, picked, strict=True))
+        densities = [inputs[role].place for role in _DENSITIES.intersection(several)]
         if len(densities) == 2 and densities[0] == densities[1]:
-            continue  # a cell is not both
+            continue  # a cell is not the density of both
         examination = _examined(table, inputs, pi, feeding)
         advances = examination.share("advance", REPORT["advance"])
         tried.append((examination.agreement(), advances, examination))
@@ -449,17 +427,18 @@ def _settled(
     places = {entry.place for entry in examination.inputs.values()}
     rivals = [rival for agreement, _, rival in tried if best - agreement < 0.2]
     if any({entry.place for entry in rival.inputs.values()} != places for rival in rivals):
-        role, cells = next(iter(several.items()))
-        alike = dict.fromkeys(address(c.place, True) for c in cells if c.place)
+        role = several[0]
+        alike = dict.fromkeys(address(cell.place, True) for cell in options[role] if cell.place)
         where = " and ".join(list(alike)[:3])
         raise ValueError(f"{where} could each be {title(role)}: give --map {role}=CELL")
     return examination
 
 
 def _as_converted(cell: Input, calculation: Calculation) -> Input:
-    """An input in a unit such as ksi by the factor that formulas have, of four digits or more.
+    """Return an input in a unit such as ksi, converted by the workbook's own, rounded factor.
 
-    The factor is a number in a formula that reads the input, or in a cell that it reads, too.
+    The factor, right to four digits or more, is typed into a formula that reads the input, or
+    stands in another cell that this formula reads.
     """
     if cell.place is None or power_of_ten(float(cell.factor)) is not None:
         return cell
@@ -478,11 +457,11 @@ def _as_converted(cell: Input, calculation: Calculation) -> Input:
 def _examined(
     table: Table, chosen: Mapping[str, Input], pi: float, feeding: Mapping[str, Input]
 ) -> Examination:
-    """A table with these cells as inputs, its columns in the units that tie them together.
+    """Return the examination with these cells as inputs, the columns in units that fit together.
 
-    If the deceleration is not what depth and velocity give in that unit, but in the one that its
-    head names, or in SI, then it is the velocities that are wrong. If it is with velocities in SI,
-    then it is the unit that the impact velocity's label names.
+    If the rows do not follow the scheme in these units, the velocities may be wrong: then the
+    deceleration's unit is the one that its head names, or SI. Or the label of the impact velocity
+    names a wrong unit: then the rows follow the scheme with velocities in SI.
     """
     powers = _powers(table, chosen)
     tied = _solved_back(_with_inputs(table, chosen, pi, powers), feeding)
@@ -507,7 +486,10 @@ def _examined(
 def _with_inputs(
     table: Table, chosen: Mapping[str, Input], pi: float, powers: dict[str, int]
 ) -> Examination:
-    """A table with these cells as inputs, and the report's where there are none."""
+    """Return the examination with these cells as inputs, completed, and the columns in SI units.
+
+    Raises ValueError if the table has no velocities, or an input is not positive.
+    """
     columns = {
         role: {
             k: si
@@ -518,13 +500,13 @@ def _with_inputs(
         for role in table.lines
     }
     brakes = columns.get("deceleration", {})
-    # By the first rows: where a motion goes wrong, its deceleration may change its sign. If there
-    # the velocity rises, the sign is wrong.
-    speeds = columns.get("velocity_initial") or columns.get("velocity_final") or {}
+    speeds = columns[table.speed]
     if len(speeds) < 2:
         raise ValueError(
             f"the table on {table.sheet!r} has no velocities: give --map velocity=RANGE"
         )
+    # The first rows tell the sign of the decelerations: further down, a motion that goes wrong may
+    # change it. If the velocity rises there, the sign itself is the fault.
     first, *_, last = islice(speeds.values(), 4)
     negative = last < first and median([0.0, *islice(filter(None, brakes.values()), 4)]) < 0
     if negative:
@@ -537,8 +519,8 @@ def _with_inputs(
                 f"{where}: taken for {title(entry.role)}, is {entry.si:g}; it should be greater "
                 f"than zero; if another cell is meant, give --map {entry.role}=CELL"
             )
-    names = [each.name for each in fields(Case) if each.name in inputs]
-    case = Case(**{name: inputs[name].si for name in names}, pi=pi)
+    known = {field.name: inputs[field.name].si for field in fields(Case) if field.name in inputs}
+    case = Case(**known, pi=pi)
     if inputs["particle_density"].place is None and "mass" in inputs:
         case = replace(case, own_mass=inputs["mass"].si)
     rows = Rows(columns, case, REPORT)
@@ -546,30 +528,30 @@ def _with_inputs(
 
 
 def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
-    """The power of ten of each column.
+    """Return the power of ten between each column's unit and SI.
 
-    The rows tie the units together: dx = v dt and dv = a dt. Of the powers that may be meant, those
-    that contradict the fewest units named, then the fewest of these ties, then none at all, then
-    those nearest to the report's numbers.
+    The rows tie the units together: dx = v dt and dv = a dt. Of all possible powers those are
+    chosen that contradict the fewest units in heads, then the fewest of these ties, then those that
+    bring velocity and step nearest to the report's.
     """
     report, speed = report_inputs(), table.speed
-    # What the step would be, and what a column would be, if all cells were in SI units.
+    # The step by the times, the step by depths and velocities, and dv/a, in the columns' units.
     step, move = _usual(table, "time"), _usual(table, "depth", speed)
     depth = table.lines["depth"]
     advance = depth.formula(depth.last)
     if advance and not depth.reads(depth, 1):
-        move = 0.0  # its rows do not add to those before
+        move = 0.0  # the depths do not add to the row before, so their changes tell no step
     brake = _usual(table, speed, "deceleration", speed == "velocity_initial")
     named = {role: unit_power(line.unit) for role, line in table.lines.items()}
     start = next((abs(v) for v in table.lines[speed].values if v), 1.0)
     impact = inputs["velocity"].si if "velocity" in inputs else 0.0
     impact = impact if impact > 0 else report["velocity"][0]
     speeds = {named[speed] or 0, _round(impact / start)}
-    steps = [inputs["step"].si] if "step" in inputs else []
-    place = inputs["step"].place if steps else None
-    is_direct = place is None or advance is None or advance.reads(place)
-    if step or move:
-        steps.append((step or move) * 10.0 ** _thousands(report["step"][0] / (step or move)))
+    cell = inputs.get("step")
+    steps = [cell.si] if cell else []
+    is_direct = not (cell and cell.place and advance) or advance.reads(cell.place)
+    if shown := step or move:
+        steps.append(shown * 10.0 ** _thousands(report["step"][0] / shown))
     if step and (power := named.get("time")) is not None:
         steps.append(step * 10.0**power)
     steps = [dt for dt in steps if 0 < dt < math.inf] or [report["step"][0]]
@@ -587,16 +569,19 @@ def _powers(table: Table, inputs: Mapping[str, Input]) -> dict[str, int]:
         }
         against: float = sum(named[role] not in (None, power) for role, power in powers.items())
         untied = sum(_round(factor) != powers[role] for role, factor in wanted.items() if factor)
-        if step and named.get("time") is not None and "step" in inputs and inputs["step"].si > 0:
-            # The head says so, the cell does not, or what converts it for the table.
-            against += (_round(dt / inputs["step"].si) != 0) * (1 if is_direct else 0.5)
+        if step and named.get("time") is not None and cell and cell.si > 0:
+            # The head contradicts the cell of the step; half as bad if formulas convert the step.
+            against += (_round(dt / cell.si) != 0) * (1 if is_direct else 0.5)
         slower, faster = abs(_round(start * v / impact)), abs(_round(dt / report["step"][0]))
         options.append(((against, untied, slower + faster), powers))
     return min(options, key=lambda option: option[0])[1]
 
 
 def _usual(table: Table, role: str, over: str | None = None, later: int = 0) -> float:
-    """By how much a column changes from row to row, in units of another's number; 0 if seldom."""
+    """Return the median change of a column from row to row, over the number of another column.
+
+    That number is taken `later` rows before the change. Return 0 if few rows have both.
+    """
     line, base = table.lines.get(role), table.lines.get(over or role)
     if line is None or base is None:
         return 0.0
@@ -607,17 +592,17 @@ def _usual(table: Table, role: str, over: str | None = None, later: int = 0) -> 
 
 
 def _round(ratio: float) -> int:
-    """The nearest power of ten, within what any unit could be."""
+    """Return the nearest power of ten, limited to what units can make up; 0 if there is none."""
     return max(-30, min(30, round(math.log10(ratio)))) if 0 < ratio < math.inf else 0
 
 
 def _thousands(ratio: float) -> int:
-    """The nearest power of ten that is one of a thousand; for less than 300 times none is meant."""
+    """Return the nearest power of a thousand, as a power of ten; 0 for ratios below about 300."""
     return 3 * round(_round(ratio) / 3) if abs(_round(ratio)) > 2 else 0
 
 
 def _whole(factor: float, named: int | None) -> int:
-    """A factor as a power of ten: the one that a unit names, if it is that, else of a thousand."""
+    """Return a factor as a power of ten: that of the unit named if it fits, else of a thousand."""
     if not 0 < factor < math.inf:
         return named or 0
     return named if _round(factor) == named else _thousands(factor)
@@ -629,7 +614,7 @@ def _completed(
     speeds: Mapping[int, float],
     powers: Mapping[str, int],
 ) -> dict[str, Input]:
-    """The inputs, with those that follow from others or from the columns."""
+    """Return the inputs with those that follow from others or from the columns, or the report's."""
     inputs, report = dict(chosen), report_inputs()
 
     def add(role: str, si: float, how: str, *of: str) -> None:
@@ -658,12 +643,12 @@ def _completed(
 
 
 def _typed(calculation: Calculation) -> set[float]:
-    """Every number that stands in a formula."""
+    """Return every number that stands in a formula."""
     return {number for formula in calculation.formulas.values() for number in formula.literals}
 
 
 def _shortest(value: float, near: float) -> float:
-    """The decimal with the fewest digits within `near` (relative) of a value.
+    """Return the decimal with the fewest digits within a relative distance of a value.
 
     >>> _shortest(2.0000000003e-10, 1e-9)
     2e-10
@@ -673,10 +658,11 @@ def _shortest(value: float, near: float) -> float:
 
 
 def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Examination:
-    """Inputs that no cell holds: the first that the rows agree with, else the report's, assumed.
+    """Return the examination with values for the inputs that no cell holds.
 
-    The report's values first; with mass, diameter and resistance as they should be, then as the
-    cells `feeding` the rows hold them; then what the rows themselves say.
+    They are the first that the rows agree with. The report's values are tried first, with mass,
+    diameter and resistance as they should be, then as the cells `feeding` the rows hold them; then
+    the values solved from the rows. If none agrees, the report's are assumed.
     """
     unknown = [role for role, entry in examination.inputs.items() if entry.how == "report"]
     typed = _typed(examination.table.calculation) if unknown else set()
@@ -684,15 +670,15 @@ def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Exam
     of_report = [dict(zip(unknown, each, strict=True)) for each in values]
     solved = {}
     for role, value in _solved(examination).items():
-        if role in unknown:  # a number that some formula has, or the shortest decimal
-            near = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
-            solved[role] = next(near, _shortest(value, 1e-8))
+        if role in unknown:  # the number in some formula that is near, else the shortest decimal
+            near_by = (number for number in typed if math.isclose(number, value, rel_tol=1e-7))
+            solved[role] = next(near_by, _shortest(value, 1e-8))
     tries = product((BRAKES[:2], BRAKES), ((), *_fed(examination, feeding)), ["report"], of_report)
     for rules, fed, how, tried in (*tries, (BRAKES[:2], (), "rows", solved)):
         case, intended = examination.case, examination.intended
         for role, value in tried.items():
             if value == getattr(case, role):
-                continue  # and the mass stays that of its cell
+                continue  # so that the mass stays that of its cell
             case, intended = case.with_input(role, value), intended.with_input(role, value)
         for cell in fed:
             case = case.holding(cell.role, cell.si)
@@ -710,9 +696,10 @@ def _solved_back(examination: Examination, feeding: Mapping[str, Input]) -> Exam
 
 
 def _fed(examination: Examination, feeding: Mapping[str, Input]) -> Iterator[tuple[Input, ...]]:
-    """Mass, diameter and resistance as their cells hold them, where that is not what it should be.
+    """Yield combinations of mass, diameter and resistance as their cells hold wrong values of them.
 
-    A formula that is wrong does not tell its unit by its value: every power of a thousand may be.
+    The value of a wrong formula does not tell its unit, so without one every power of a thousand is
+    tried.
     """
     wrong = []
     for role, cell in feeding.items():
@@ -721,7 +708,7 @@ def _fed(examination: Examination, feeding: Mapping[str, Input]) -> Iterator[tup
         if number is None or (number == 0 and role != "resistance"):
             continue
         if number > 0 and power_of_ten(wanted / number) is not None:
-            continue  # right, or a unit is not converted, which the rows tell otherwise
+            continue  # it is right, or a power of ten off, which `judge` finds by the rows
         thousands = () if cell.unit else (Fraction(1000) ** power for power in range(-5, 6))
         factors = dict.fromkeys((cell.factor, *thousands))
         wrong.append([replace(cell, role=role, si=scaled(number, by), factor=by) for by in factors])
@@ -730,10 +717,10 @@ def _fed(examination: Examination, feeding: Mapping[str, Input]) -> Iterator[tup
 
 
 def _solved(examination: Examination) -> dict[str, float]:
-    """Target density and resistance for which the rows brake as they do, drag at the beginning.
+    """Return the target density and resistance that the decelerations of the rows imply, if any.
 
-    a M / (pi A) is a straight line in v²: its slope is half the density, its end the resistance.
-    Each pair of rows gives both; the medians withstand some wrong rows. Nothing if there are none.
+    By Eqs. A-1 to A-3, a M / (pi A) = rho v²/2 + R is a straight line in v², v being the velocity
+    at the beginning of the row. Each pair of rows gives both; medians withstand some wrong rows.
     """
     case, rows, points = examination.case, examination.rows, []
     for k in range(1, max(rows.columns["depth"]) + 1):

@@ -1,8 +1,8 @@
-"""What people call things: heads of columns and labels of inputs, their units, numbers in them.
+"""Understand what people write: heads of columns, labels of inputs, and units and numbers in them.
 
-A text is read in two ways: as a symbol, if it is nothing else ("R_t", "dx/dt"), and by the words
-in it ("target resistance"); `words.toml` lists both. Units stand in brackets, after "in" or "/",
-or in a cell of their own.
+A text is read in two ways: as a symbol, if it is nothing but that ("R_t", "dx/dt"), and by the
+words in it ("target resistance"); `words.toml` lists both. Units stand in brackets, after "in" or
+"/", or in a cell of their own.
 """
 
 import math
@@ -22,17 +22,18 @@ _WORDS: dict[str, dict[str, str]] = tomllib.loads(
     resources.files("replication.check").joinpath("words.toml").read_text("utf-8")
 )
 COLUMNS = _WORDS["columns"]
-"""The columns of the sheet, in the order of a row, and what they measure."""
+"""The columns of the scheme, in the order of a row, and their SI units."""
 INPUTS = _WORDS["inputs"]
-"""What a cell beside the table may hold, and what it measures."""
+"""The inputs that a cell beside the table may hold, and their SI units."""
 _MEASURES = {**COLUMNS, **INPUTS}
 
 _MAX_LABEL = 80
+"""Characters of a text that are read."""
 
 
 @cache
 def _plain(text: str) -> str:
-    """A text without case, accents of typing (sub- and superscripts), marks and double blanks."""
+    """Return a text in small letters, without superscripts, marks, double blanks or "(SI)"."""
     text = unicodedata.normalize("NFKC", text[:_MAX_LABEL]).casefold().replace("−", "-")
     bare = re.sub(r"\s+", " ", re.sub(r"[=:;^]+|\*\*", "", text)).strip()
     return re.sub(r" (?:in )?[\[(]?si(?: units?| unit[ée]s?)?[\])]?$", "", bare)
@@ -40,7 +41,7 @@ def _plain(text: str) -> str:
 
 @cache
 def is_unit(text: str) -> str | None:
-    """The unit that a text is, as `reference.units` reads it; None if it is something else.
+    """Return the unit that a text consists of, as `reference.units` reads it, or None.
 
     >>> is_unit("µm"), is_unit("(kg/m³)"), is_unit("m/s2"), is_unit("-"), is_unit("depth")
     ('um', 'kg/m3', 'm/s2', '1', None)
@@ -61,7 +62,7 @@ def is_unit(text: str) -> str | None:
 
 @cache
 def unit_in(text: str) -> str | None:
-    """The unit that a head or label names.
+    """Return the unit that a head or label names, or None.
 
     >>> unit_in("Eindringtiefe [µm]"), unit_in("v1 / (m/s)"), unit_in("t in s"), unit_in("dx/dt")
     ('um', 'm/s', 's', None)
@@ -83,7 +84,7 @@ def unit_in(text: str) -> str | None:
 
 
 def _symbol(text: str) -> str:
-    """The text without its unit: what is left may be a symbol.
+    """Return a text without its unit; the rest may be a symbol.
 
     >>> _symbol("v1 / (m/s)"), _symbol("Time"), _symbol("Rₜ [Pa]"), _symbol("x/m")
     ('v1', 'time', 'rt', 'x')
@@ -96,18 +97,18 @@ def _symbol(text: str) -> str:
 
 
 def _symbols(table: str, text: str) -> list[str]:
-    """The entries of a table of symbols that a text is."""
+    """Return the names of the entries of a table whose symbol is the whole text."""
     return _words(table, _symbol(text), re.fullmatch)
 
 
 def _words(table: str, text: str, fits: Callable[[str, str], object] = re.search) -> list[str]:
-    """The entries of a table of words that stand in a text."""
+    """Return the names of the entries of a table whose words stand in a text."""
     return [name for name, pattern in _WORDS[table].items() if fits(pattern, text)]
 
 
 @cache
 def column_roles(head: str) -> frozenset[str]:
-    """The columns that a head may stand over; "other" for a quantity that is none of them.
+    """Return the columns that a head may stand over; "other" for any other quantity.
 
     >>> sorted(column_roles("dx/dt initial")), sorted(column_roles("Eindringtiefe [µm]"))
     (['velocity_initial'], ['depth'])
@@ -119,7 +120,7 @@ def column_roles(head: str) -> frozenset[str]:
     if role is None or (
         role != "other" and unit and not same_dimension(unit, COLUMNS.get(role, "m/s"))
     ):
-        # What is behind an underscore may be the end of a unit only: a_m_s2.
+        # After an underscore only the end of a unit may have been read: a_m_s2.
         measured = unit in (None, "1") or "_" in head
         known = measured or any(same_dimension(str(unit), each) for each in COLUMNS.values())
         return frozenset(() if known else {"other"})
@@ -132,7 +133,7 @@ def column_roles(head: str) -> frozenset[str]:
 
 
 def is_end(head: str) -> bool:
-    """Whether a head only says which end of a step it is of.
+    """Whether a head says no more than which end of a step it belongs to.
 
     >>> is_end("initial"), is_end("v initial")
     (True, False)
@@ -142,7 +143,7 @@ def is_end(head: str) -> bool:
 
 @cache
 def input_roles(label: str, unit: str | None) -> frozenset[str]:
-    """The inputs that a label may name, given the unit beside it, if any.
+    """Return the inputs that a label may name, given the unit beside it, if any.
 
     >>> sorted(input_roles("Rt =", None)), sorted(input_roles("Dichte Ziel", "g/cm^3"))
     (['resistance'], ['target_density'])
@@ -159,16 +160,16 @@ def input_roles(label: str, unit: str | None) -> frozenset[str]:
             for role, (wanted, _, unwanted) in needs.items()
             if groups.issuperset(wanted.split()) and unwanted not in groups
         ]
-        # Only a density may be that of either, where the label says of neither.
+        # Only a density is ambiguous: without particle or target in its label it may be either.
         roles = [role for role in roles if role.endswith("density")] or roles[:1]
     return frozenset(r for r in roles if unit is None or same_dimension(unit, INPUTS[r]))
 
 
 @cache
 def result_of(label: str) -> str | None:
-    """Whether a label names the final depth ("depth") or that over the radius ("ratio").
+    """Return "depth" if a label names the final depth, "ratio" for that over the radius, or None.
 
-    "any depth" does not say which one.
+    "any depth" is a depth that is not said to be the final one.
 
     >>> result_of("Endtiefe [µm]"), result_of("X/R"), result_of("Depth [m]"), result_of("radius")
     ('depth', 'ratio', 'any depth', None)
@@ -206,9 +207,9 @@ _QUANTITY = rf"(?:\b(?:v_?0?|[dδ∆]t|(?:time )?step) ?)?{_NUMBER} ?(?:[kmcµu]
 
 @cache
 def number_in(text: str) -> tuple[str | None, float]:
-    """The beta, velocity or time step [SI] that a text names; or the number that it begins with.
+    """Return the beta, velocity or time step (in SI units) in a text, or the number it begins with.
 
-    NaN if there is none, and if there are several velocities or steps.
+    The number is NaN if there is none, or if there are several velocities or steps.
 
     >>> number_in("X/R (β = 5)"), number_in("Final depth, b=3"), number_in("V = 400 m/s: depth")
     (('beta', 5.0), ('beta', 3.0), ('velocity', 400.0))
@@ -230,21 +231,21 @@ def number_in(text: str) -> tuple[str | None, float]:
     return None, float(number[1].replace(",", ".")) if number else math.nan
 
 
-# What this program calls them, and numbers in their units.
+# ---- how this program writes names, numbers and units
 
 
 def title(role: str) -> str:
-    """What a column or an input is called in a sentence."""
+    """Return the name of a column or an input as a sentence has it."""
     return _WORDS["titles"].get(role) or f"the {role.replace('_', ' ')}"
 
 
 def titles(roles: Iterable[str]) -> str:
-    """Some of them, joined."""
+    """Return the names of several columns or inputs, joined by "and"."""
     return " and ".join(map(title, roles))
 
 
 def quantity(value: float, role: str) -> str:
-    """A value in SI units with its unit.
+    """Return a value in SI units as text, with its unit.
 
     >>> quantity(11e-6, "radius"), quantity(5.0, "beta")
     ('1.1e-05 m', '5')
@@ -253,7 +254,7 @@ def quantity(value: float, role: str) -> str:
 
 
 def unit_text(role: str, power: int) -> str:
-    """The unit of a role that is a power of ten of the SI unit.
+    """Return the unit of a column or input that is a power of ten of the SI unit.
 
     >>> unit_text("depth", -6), unit_text("depth", 0), unit_text("radius", 5)
     ('um', 'm', '1e5 m')
@@ -264,7 +265,7 @@ def unit_text(role: str, power: int) -> str:
 
 
 def power_of_ten(ratio: float) -> int | None:
-    """The power of ten that a ratio is, None if it is none.
+    """Return the exponent if a ratio is a power of ten, else None.
 
     >>> power_of_ten(1e-6), power_of_ten(1.0), power_of_ten(2.0)
     (-6, 0, None)
@@ -276,7 +277,7 @@ def power_of_ten(ratio: float) -> int | None:
 
 
 def unit_power(unit: str | None) -> int | None:
-    """The power of ten that a unit is of that in SI; None for no unit, or one that is none.
+    """Return the power of ten between a unit and SI, or None if there is no unit or no such power.
 
     >>> unit_power("um"), unit_power("ksi"), unit_power(None)
     (-6, None, None)
@@ -285,11 +286,11 @@ def unit_power(unit: str | None) -> int | None:
 
 
 def between_units(power: int, role: str, surely: bool = False) -> bool:
-    """Whether a power of ten may lie between two units; `surely`: whether it is no mere choice.
+    """Whether two units of a quantity may differ by a power of ten.
 
     Units mostly lie a thousand apart, centimetres and metres a hundred. Only a pressure has a unit
-    a tenth of another: dyn/cm² is 0.1 Pa. But a number ten or a hundred times the report's, which
-    could be in another unit, may as well be another number.
+    a tenth of another: dyn/cm² is 0.1 Pa. `surely` allows powers of a thousand only: a number ten
+    or a hundred times the report's may as well be another value on purpose.
 
     >>> between_units(-2, "radius"), between_units(1, "radius"), between_units(-1, "flow_stress")
     (True, False, True)
@@ -302,7 +303,7 @@ def between_units(power: int, role: str, surely: bool = False) -> bool:
 
 
 def times_too(power: int) -> str:
-    """By which power of ten something is too large or too small.
+    """Say by which power of ten a number is too large or too small.
 
     >>> times_too(-3), times_too(1)
     ('1e3 times too small', '10 times too large')
@@ -312,7 +313,7 @@ def times_too(power: int) -> str:
 
 
 def scaled(value: float, factor: Fraction) -> float:
-    """A number times a factor, as the decimal that the number was typed as; inf beyond doubles.
+    """Return a number times a factor, rounded once from the decimal typed; inf beyond doubles.
 
     >>> scaled(11.0, Fraction(1, 1_000_000)) == 11e-6
     True
@@ -326,7 +327,7 @@ def scaled(value: float, factor: Fraction) -> float:
 
 
 def digits_of(value: float) -> tuple[int, int]:
-    """How many digits a number has, as it was typed, and which power of ten the last one is.
+    """Return the number of digits of a typed number, and the power of ten of the last one.
 
     >>> digits_of(0.0254), digits_of(3000.0)
     ((3, -4), (1, 3))
@@ -336,7 +337,7 @@ def digits_of(value: float) -> tuple[int, int]:
 
 
 def count(number: int, what: str) -> str:
-    """A number of things.
+    """Return a number and the noun that it counts.
 
     >>> count(1, "cell"), count(2, "cell")
     ('1 cell', '2 cells')
@@ -345,7 +346,7 @@ def count(number: int, what: str) -> str:
 
 
 def share(some: Sized, of: Sized, what: str) -> str:
-    """How many things of how many.
+    """Say how many of some things, such as "2 of 4 formulas".
 
     >>> share("ab", "abcd", "formula"), share("ab", "ab", "formula"), share("a", "a", "formula")
     ('2 of 4 formulas', 'all 2 formulas', '1 of 1 formula')
