@@ -19,9 +19,10 @@ Model = Callable[..., Any]
 LEAST, GREATEST = 1e-40, 1e40
 """Of inputs between these `check_range` refuses nothing: its products have at most six factors."""
 
-PIECE = 25_000
-"""Elements of a piece of work: two pieces and more are shared out to the cores. A piece takes a
-millisecond, ten times what handing it out takes, and its data fit into a core's cache."""
+PIECE = 125_000
+"""Final depths in a piece of work; two pieces and more are shared out to the cores. A piece takes
+1.4 to 5 ms; starting the threads takes up to 2 ms on a virtual machine, so that less does not pay.
+A million cases still keep eight cores busy."""
 
 _DOC = """
 
@@ -48,7 +49,7 @@ def _for_anything(model: Model) -> Model:
                 return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
-        compute = partial(_computed, model, lambda *cases: _each(ufunc(model), *cases))
+        compute = partial(_computed, model, lambda *cases: _each(model, *cases))
         return _contained(compute, bound.arguments, (float,))
 
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
@@ -83,11 +84,14 @@ def history(
     """
     inputs = locals()
     case = velocity, radius, particle_density, target_density, resistance
-    line = type(time).__name__ == "ndarray" and time.ndim == 1 and time.dtype.char == "d"
-    if line and _are_plain(case):
-        results = ufunc(motion.history)(time, *case)
-        if results[0].dot(results[0]) < math.inf:  # none is NaN
-            return results
+    if _is_line(time) and _are_plain(case):
+        depth, speed = time.copy(), time.copy()
+        try:
+            _single_history()(time, *case, depth, speed)
+        except ValueError:  # a bad time, which is named below
+            pass
+        else:
+            return depth, speed
     compute = partial(_computed, partial(_filled, motion.history), _histories)
     return _contained(compute, inputs, (float, float))
 
@@ -98,6 +102,13 @@ def _are_plain(values: Iterable[Any]) -> bool:
         if type(value) is not float or not LEAST <= value <= GREATEST:
             return False
     return True
+
+
+def _is_line(time: Any) -> bool:
+    """Whether this is an array of one axis that compiled code may take as it is."""
+    if type(time).__name__ != "ndarray" or time.ndim != 1:
+        return False
+    return bool(time.dtype.char == "d" and time.dtype.isnative and time.flags.carray)
 
 
 def _filled(model: Model, first: float, *values: Any) -> tuple[float, Any]:
@@ -118,7 +129,7 @@ def _histories(*values: Any) -> Any:
     shared = [k for k in range(rank + 1) if all(case.shape[k] == 1 for case in cases)]
     axis = max(shared, key=time.shape.__getitem__)
     time, *cases = (array.swapaxes(axis, -1) for array in (time, *cases))
-    results = _each(ufunc(motion.history), time, *(case[..., 0] for case in cases))
+    results = _each(motion.history, time, *(case[..., 0] for case in cases))
     return tuple(result.swapaxes(axis, -1)[..., 0] for result in results)
 
 
@@ -142,7 +153,7 @@ def run_many(
     compute = partial(
         _computed,
         lambda *case: _filled(sheet.last_row, *case, centered),
-        lambda *cases: _each(ufunc(sheet.last_row), *cases, centered),
+        lambda *cases: _each(sheet.last_row, *cases, centered),
     )
     return _contained(compute, inputs, (float, int))
 
@@ -242,8 +253,8 @@ def _without_result(case: Mapping[str, float], result: float) -> InputError:
 # How it is computed
 
 
-def _each(function: Any, *values: Any) -> Any:
-    """The results of a ufunc for values that broadcast; histories have an axis of times besides.
+def _each(model: Model, *values: Any) -> Any:
+    """The results of a compiled model for values that broadcast, beside a history's axis of times.
 
     Python's threads share out many cases to all cores, as compiled code releases Python's lock.
     Numba's own may not be started from two threads at once, and do not survive a fork. Only the
@@ -253,10 +264,12 @@ def _each(function: Any, *values: Any) -> Any:
 
     import numpy as np
 
+    function = ufunc(model)
     first, *others = map(np.shape, values)
-    times = first[-1:] if "n" in (function.signature or "") else ()
+    times = first[-1:] if model is motion.history else ()
     shape = np.broadcast_shapes(first[: len(first) - len(times)], *others)
-    weight = 20 if function.signature else 1  # sheets and histories, in final depths
+    # A time, a sheet or a history takes as long as some hundred depths.
+    weight = 1 if model.__module__ == depth.__name__ else 100
     pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
     if pieces < 2 or threading.current_thread() is not threading.main_thread():
         return function(*values)
@@ -280,9 +293,36 @@ def _each(function: Any, *values: Any) -> Any:
 
 @cache
 def ufunc(model: Model) -> Any:
-    """A model as a NumPy ufunc: its own code, compiled; without a check of its inputs.
+    """A model as a NumPy ufunc: its own code, compiled, without a check of its inputs."""
+    import numba
+    from numba import b1, f8, i8
 
-    Compiled once and kept on disk; where no folder can be written to, compiled in every process.
+    gufuncs: dict[Model, tuple[list[Any], str]] = {
+        motion.history: ([f8[:], *[f8] * 5, f8[:], f8[:]], "(n),(),(),(),(),()->(n),(n)"),
+        sheet.last_row: ([*[f8] * 7, b1, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"),
+    }
+    if model in gufuncs:
+        types, shapes = gufuncs[model]
+        return _compiled(model, partial(numba.guvectorize, [tuple(types)], shapes)).ufunc
+    types = [f8] * len(inspect.signature(model).parameters)
+    return _compiled(model, partial(numba.vectorize, [f8(*types)])).ufunc
+
+
+@cache
+def _single_history() -> Any:
+    """The compiled `motion.history`: calling it takes a microsecond less than calling a ufunc."""
+    import numba
+    from numba import f8, void
+
+    line = f8[::1]
+    types = [void(line, *[f8] * 5, line, line)]
+    return _compiled(motion.history, partial(numba.njit, types, nogil=True))
+
+
+def _compiled(model: Model, compiler: partial[Any]) -> Any:
+    """What the compiler makes of a model; kept for as long as the process runs.
+
+    It is compiled once and stored on disk, or in every process if no folder can be written to.
     """
     import hashlib
     from pathlib import Path
@@ -290,7 +330,6 @@ def ufunc(model: Model) -> Any:
 
     import numba
     from filelock import FileLock
-    from numba import b1, f8, i8
 
     if numba.config.DISABLE_JIT:
         raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
@@ -299,17 +338,7 @@ def ufunc(model: Model) -> Any:
     # Numba checks only whether this file has changed; the hash in the name covers what it calls.
     sources = sorted(Path(__file__).parent.glob("*.py"))
     digest = hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
-    root.__qualname__ = f"{model.__name__}_{digest[:16]}"
-    gufuncs: dict[Model, tuple[list[Any], str]] = {
-        motion.history: ([f8[:], *[f8] * 5, f8[:], f8[:]], "(n),(),(),(),(),()->(n),(n)"),
-        sheet.last_row: ([*[f8] * 7, b1, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"),
-    }
-    if model in gufuncs:
-        types, shapes = gufuncs[model]
-        compiler = partial(numba.guvectorize, [tuple(types)], shapes)
-    else:
-        types = [f8] * len(inspect.signature(model).parameters)
-        compiler = partial(numba.vectorize, [f8(*types)])
+    root.__qualname__ = f"{model.__name__}_{compiler.func.__name__}_{digest[:16]}"
     try:
         folder = numba.njit(cache=True)(root).stats.cache_path
         # Two processes that compile at once would store files that do not belong together.
@@ -318,7 +347,7 @@ def ufunc(model: Model) -> Any:
     except (RuntimeError, OSError):
         compiled = compiler(cache=False)(root)
     _KEPT.append(compiled)
-    return compiled.ufunc
+    return compiled
 
 
 _KEPT: list[Any] = []
@@ -335,7 +364,7 @@ def _make_known() -> None:
         for function in vars(module).values():
             if inspect.isfunction(function) and function is not motion.zeros:
                 register_jitable(function)
-    overload(motion.zeros)(lambda count: lambda count: np.zeros(count))  # noqa: ARG005
+    overload(motion.zeros)(lambda rows, columns: lambda rows, columns: np.zeros((rows, columns)))  # noqa: ARG005
 
 
 # Containers of other libraries, recognized by their types, so that no unused library is imported

@@ -111,9 +111,9 @@ def test_compiled_sheets_are_plain_to_the_last_bit(count: int, centered: bool) -
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_many_are_what_each_is_alone(name: str) -> None:
     function = getattr(arrays, name)
-    columns = [value * np.linspace(1.0, 1.05, 60_000) for value in FUNCTIONS[name]]
+    columns = [value * np.linspace(1.0, 1.05, 300_000) for value in FUNCTIONS[name]]
     whole = as_tuple(function(*columns))  # shared out over the cores
-    some = [0, 1, 31_000, 59_999]
+    some = [0, 1, 155_000, 299_999]
     for part in as_tuple(function(*(column[some] for column in columns))):
         assert part.shape == (4,)
     for k in some:
@@ -236,12 +236,12 @@ def test_lazy_arrays_in_any_chunks_and_beside_others() -> None:
 
 
 def test_threads_and_dask_share_out_nothing_twice() -> None:
-    velocities = np.linspace(300, 900, 200_000)
+    velocities = np.linspace(300, 900, 500_000)
     expected = arrays.final_depth(velocities, *CASE[1:])
     with ThreadPoolExecutor(8) as threads:
         for result in threads.map(lambda _: arrays.final_depth(velocities, *CASE[1:]), range(8)):
             np.testing.assert_array_equal(result, expected)
-    lazy = arrays.final_depth(dask.array.from_array(velocities, 50_000), *CASE[1:])
+    lazy = arrays.final_depth(dask.array.from_array(velocities, 125_000), *CASE[1:])
     with dask.config.set(scheduler="threads", num_workers=8):
         np.testing.assert_array_equal(lazy.compute(), expected)
 
@@ -250,7 +250,7 @@ FORKED = """
 import os, sys
 import numpy as np
 from replication.models import arrays
-velocities = np.linspace(300, 900, 200_000)
+velocities = np.linspace(300, 900, 500_000)
 rest = (11e-6, 8900.0, 7850.0, 3.5e9)
 whole = arrays.final_depth(velocities, *rest)
 child = os.fork()
