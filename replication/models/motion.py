@@ -23,7 +23,7 @@ ORDER = 20
 E_2 = math.exp(-2)
 
 LANES = 16
-"""How many times of a history are evaluated together: the processor does several at once."""
+"""Number of times that are evaluated together, so that the compiler can use vector instructions."""
 
 Array = Any  # a list of floats, or a list of such lists; in compiled code an array
 
@@ -34,8 +34,8 @@ def history(
 ) -> None:  # fmt: skip
     """Fill in `depth` [m] and `speed` [m/s] at times [s] after touch, in any order.
 
-    `arrays.history` says what they are and how exact. Raises ValueError for a negative time or one
-    that is not finite.
+    `arrays.history` documents the results and their errors. Raises ValueError for a time that is
+    negative or not finite.
     """
     V, R = velocity, radius
     rising = _are_rising(time)
@@ -69,7 +69,7 @@ def history(
 
 
 def _are_rising(time: Array) -> bool:
-    """Whether no time is before the previous one. Raises as `history` does."""
+    """Return whether no time is earlier than the one before it. Raises as `history` does."""
     rising, before = True, 0.0
     for k in range(len(time)):
         if not 0 <= time[k] < math.inf:
@@ -97,8 +97,8 @@ def time_to_depth(
 ) -> float:  # fmt: skip
     """Time [s] from touch to a depth [m], at most the final one.
 
-    Close to rest the time left varies as the square root of the depth left, so that fewer digits
-    of the result are right.
+    Close to rest the remaining time varies as the square root of the remaining depth, so that
+    fewer digits of the result are correct.
 
     >>> f"{time_to_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e9:.6f}"
     '11.192312'
@@ -110,7 +110,7 @@ def time_to_depth(
 def _time(
     depth: float, speed: float, V: float, R: float, rho_p: float, rho_t: float, R_t: float
 ) -> float:
-    """Time [s] at which the motion has this depth and speed; NaN if one of them is."""
+    """Time [s] at which the motion has this depth [m] and speed [m/s]; NaN if either is NaN."""
     if math.isnan(depth + speed):
         return math.nan
     if depth == 0:
@@ -131,7 +131,7 @@ def _time(
 def _equation(
     V: float, rho_p: float, rho_t: float, R_t: float
 ) -> tuple[float, float, float, float]:
-    """b and c of the equation, y at rest, and u at y = 1 (0 if the motion does not pass it)."""
+    """Return b and c, y at rest, and u at y = 1 (0 if the motion does not get beyond it)."""
     b = 0.375 * rho_t / rho_p
     c = b / (rho_t * V * V / (2 * R_t))
     final = normalized_depth(V, rho_p, rho_t, R_t)
@@ -139,11 +139,11 @@ def _equation(
     return b, c, final, at_radius
 
 
-# Beyond y = 1: with k^2 = c/b and w^2 = b c, u = k tan(constant - w t)
+# Beyond y = 1, where u = k tan(constant - w t) with k^2 = c/b and w^2 = b c
 
 
 def _beyond(time: float, b: float, c: float, at_radius: float) -> tuple[float, float]:
-    """y and u at a time after y = 1, in a form without cancellation."""
+    """Return y and u at a time after the passage through y = 1, in a form without cancellation."""
     k, half = math.sqrt(c / b), math.sqrt(b * c) * time / 2
     sine, cosine = math.sin(half), math.cos(half)
     growth = 2 * sine * (at_radius / k * cosine - sine)
@@ -152,20 +152,21 @@ def _beyond(time: float, b: float, c: float, at_radius: float) -> tuple[float, f
 
 
 def _time_beyond(u: float, b: float, c: float, at_radius: float) -> float:
-    """Time from y = 1 until the velocity has fallen to u."""
+    """Return the time from y = 1 until the velocity has fallen to u."""
     k = math.sqrt(c / b)
     return math.atan2(k * (at_radius - u), k * k + at_radius * u) / math.sqrt(b * c)
 
 
-# Up to y = 1. A row of `terms` has the coefficients of y, its derivative w, stress and area
+# Up to y = 1. The rows of `terms` are the coefficients of y, its derivative w, b w^2 + c, and
+# 2y - y^2. Times s along a series are counted from the start of its step, in the step's unit
 
 
 def _steps(
     terms: Array, b: float, c: float, end_y: float, end_u: float
 ) -> Iterator[tuple[float, float, float]]:
-    """Fill in the series of each step from touch to the end; yield its start, unit and length.
+    """Fill in `terms` for each step from touch to y = end_y, u = end_u.
 
-    The unit is that of time in the series, in which the length is given, too.
+    Yields the step's start, the unit of time of its series, and its length in that unit.
     """
     start, unit = 0.0, 1 / math.sqrt(1 + b + c)
     terms[0][0], terms[1][0] = 0.0, unit
@@ -183,14 +184,15 @@ def _steps(
 
 
 def _expand(terms: Array, b: float, c: float) -> float:
-    """Fill in the coefficients that follow from y and w at the start; return a step's length."""
+    """Fill in the coefficients that follow from y and w at the start; return the step's length."""
     y, w, stress, area = terms[0], terms[1], terms[2], terms[3]
     y_0, w_0 = y[0], w[0]
     stress_0, area_0 = b * w_0 * w_0 + c, 2 * y_0 - y_0 * y_0
     y_k, w_k = w_0, -stress_0 * area_0
     stress[0], area[0], y[1], w[1] = stress_0, area_0, y_k, w_k
     for k in range(1, ORDER):
-        # Sums from the middle to both ends, so that few operations wait for the last coefficients.
+        # The sums run from the middle to both ends, so that the processor can start them before the
+        # newest coefficients are known.
         yy, ww, first, last = 0.0, 0.0, 0.0, 0.0
         if k % 2 == 0:
             middle = k // 2
@@ -214,7 +216,7 @@ def _expand(terms: Array, b: float, c: float) -> float:
 
 
 def _states(y: Array, w: Array, s: Array, at: Array, dy: Array, count: int) -> None:
-    """Fill in y and w at the first `count` times s since the start of the step."""
+    """Fill in y (`at`) and w (`dy`) at the first `count` times s."""
     for i in range(count):
         depth, speed = y[ORDER], w[ORDER]
         for k in range(ORDER - 1, -1, -1):
@@ -224,7 +226,7 @@ def _states(y: Array, w: Array, s: Array, at: Array, dy: Array, count: int) -> N
 
 
 def _state(terms: Array, s: float) -> tuple[float, float]:
-    """y and w at a time s since the start of the step."""
+    """Return y and w at the time s."""
     y, w = terms[0], terms[1]
     at, dy = y[ORDER], w[ORDER]
     for k in range(ORDER - 1, -1, -1):
@@ -234,21 +236,21 @@ def _state(terms: Array, s: float) -> tuple[float, float]:
 
 
 def _locate(terms: Array, y: float, w: float, b: float, c: float, s: float) -> float:
-    """The time along the series at which the motion has this y and w, which must occur there.
+    """Return the time at which the motion has this y and w, by Newton's method from s.
 
-    Newton's method on the distance left, projected on the direction of the motion in the plane of
-    depth and velocity: at touch the depth decides, at rest the velocity. It starts from s.
+    What vanishes is the distance from the state (y, w), projected on the direction of motion in the
+    plane of depth and velocity: so the depth decides at touch, and the velocity at rest.
     """
     for _ in range(10):
         at, dy = _state(terms, s)
         ddy = -(b * dy * dy + c) * (2 * at - at * at)
         change = ((y - at) * dy + (w - dy) * ddy) / (dy * dy + ddy * ddy)
         s += change
-        if abs(change) <= 1e-9 * s:  # the next one would be about its square
+        if abs(change) <= 1e-9 * s:  # the next change would be about its square
             break
     return s
 
 
 def zeros(rows: int, columns: int) -> list[list[float]]:
-    """Rows of zeros: lists, or in compiled code an array."""
+    """Return rows of zeros: lists, or in compiled code an array."""
     return [[0.0] * columns for _ in range(rows)]
