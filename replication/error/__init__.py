@@ -39,33 +39,33 @@ def warnings(sheet: Sheet) -> dict[str, str]:
     >>> list(warnings(run(replace(BETA_5, step=1e-7))))
     ['reversed', 'coarse', 'deep']
     """
-    impact, last, said = sheet.impact, sheet.rows[-1], {}
+    impact, last, result = sheet.impact, sheet.rows[-1], {}
+    stop = f"the stop velocity {impact.stop_velocity!r} m/s"
     if last.velocity_final is None:
-        slow, least = impact.velocity, impact.stop_velocity
-        text = f"the velocity {slow!r} m/s is below the stop velocity {least!r} m/s: no steps"
-        return {"no steps": text}
+        return {"no steps": f"the velocity {impact.velocity!r} m/s is below {stop}: no steps"}
     if last.velocity_final < -impact.stop_velocity:
         share = 100 * -last.velocity_final / impact.velocity
         text = f"the last step reverses the velocity to {last.velocity_final:.4g} m/s"
-        said["reversed"] = f"{text}, {share:.2g} % of the impact velocity"
+        result["reversed"] = f"{text}, {share:.2g} % of the impact velocity"
     travel = impact.velocity * impact.step / impact.radius
     if too_long(travel):
         text = f"a step at the impact velocity covers {travel:.3g} of the radius"
-        said["coarse"] = f"{text}: keep it to {COARSE} at most"
+        result["coarse"] = f"{text}: keep it to {COARSE} at most"
     rest = final_depth(**impact.motion)
     if last.depth > rest * (1 + DIGITS):
         text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
-        said["deep"] = f"{text}, by {100 * (last.depth / rest - 1):.3g} %"
+        result["deep"] = f"{text}, by {100 * (last.depth / rest - 1):.3g} %"
     at_stop = depth_at_velocity(impact.stop_velocity, **impact.motion)
-    shallow = last.depth < at_stop
-    if abs(last.depth - at_stop) > OFF_STOP * at_stop and "deep" not in said:
-        which = "falls short of" if shallow else "exceeds"
-        text = f"the depth {which} the exact one at the stop velocity, {at_stop:.6g} m"
+    if abs(last.depth - at_stop) > OFF_STOP * at_stop and "deep" not in result:
+        kind, relation = "overrun", "exceeds"
+        if last.depth < at_stop:
+            kind, relation = "shallow", "falls short of"
+        text = f"the depth {relation} the exact one at the stop velocity, {at_stop:.6g} m"
         by = f", by {100 * abs(1 - last.depth / at_stop):.3g} %" if at_stop else ""
         cure = "take a shorter step" if at_stop else "the run begins at the stop velocity"
-        said["shallow" if shallow else "overrun"] = f"{text}{by}: {cure}"
+        result[kind] = f"{text}{by}: {cure}"
     short = 1 - at_stop / rest
     if short > DIGITS:
-        text = f"the stop velocity {impact.stop_velocity!r} m/s ends the run before rest"
-        said["short"] = f"{text}: {100 * short:.3g} % of the exact depth is still to come"
-    return said
+        left = f"{100 * short:.3g} % of the exact depth is still to come"
+        result["short"] = f"{stop} ends the run before rest: {left}"
+    return result

@@ -88,7 +88,7 @@ def history(
     if _is_line(time) and _are_plain(case):
         depth, speed = time.copy(), time.copy()
         try:
-            compiled(motion.history, alone=True)(time, *case, depth, speed)
+            compiled(motion.history, True)(time, *case, depth, speed)
         except ValueError:  # a bad time, which is named below
             pass
         else:

@@ -139,21 +139,22 @@ def check_range(
     mass = particle_mass(radius, particle_density)
     if not 0 < mass < math.inf:
         raise InputError("particle mass", f"is {mass!r}: it must be a number above zero")
+    _carried("target resistance", resistance)  # beta times flow stress may have underflowed to 0
+    _carried("step", step)
+    _carried("radius squared", radius * radius)
+    _carried("velocity squared", velocity * velocity)
+    _carried("particle density", particle_density)
+    _carried("target density", target_density)
     pressure = 0.5 * target_density * velocity * velocity
+    _carried("dynamic pressure", pressure)
+    _carried("dynamic pressure over target resistance", pressure / resistance)
     ratio = particle_density / target_density
-    quantities = {
-        "target resistance": resistance,
-        "step": step,
-        "radius squared": radius * radius,
-        "velocity squared": velocity * velocity,
-        "particle density": particle_density,
-        "target density": target_density,
-        "dynamic pressure": pressure,
-        "dynamic pressure over target resistance": pressure / resistance,
-        # The depth over the radius is at most some 800 times this ratio, and histories square it.
-        "ratio of the densities squared": ratio * ratio,
-        "work": pressure / resistance * ratio,
-    }
-    for name, value in quantities.items():
-        if not 1e-250 <= value <= 1e250:
-            raise InputError(name, f"is {value!r}: doubles carry 1e-250 to 1e250 safely")
+    # The depth over the radius is at most some 800 times this ratio, and histories square it.
+    _carried("ratio of the densities squared", ratio * ratio)
+    _carried("work", pressure / resistance * ratio)
+
+
+def _carried(name: str, value: float) -> None:
+    """Raise InputError unless the value is far enough from the ends of the range of doubles."""
+    if not 1e-250 <= value <= 1e250:
+        raise InputError(name, f"is {value!r}: doubles carry 1e-250 to 1e250 safely")
