@@ -41,9 +41,10 @@ def history(
     rising = _are_rising(time)
     b, c, final, at_radius = _equation(V, particle_density, target_density, resistance)
     terms, scratch = zeros(4, ORDER + 1), zeros(3, LANES)
-    k, end = 0, 0.0
+    k, end, reached = 0, 0.0, 0.0
     for start, unit, length in _steps(terms, b, c, min(final, 1.0), at_radius):
-        begin, end = start * R / V, (start + length * unit) * R / V
+        reached = start + length * unit
+        begin, end = start * R / V, reached * R / V
         k = k if rising else 0
         while k < len(time) and not (rising and time[k] >= end):
             first = k
@@ -57,14 +58,13 @@ def history(
                 for i in range(count):
                     depth[batch + i], speed[batch + i] = scratch[1][i], scratch[2][i] / unit
             k = max(k, first + 1)
-    crossing = end * V / R
-    rest = (crossing + _time_beyond(0.0, b, c, at_radius)) * R / V if at_radius > 0 else end
+    rest = (reached + _time_beyond(0.0, b, c, at_radius)) * R / V
     for k in range(len(time)):
         y, u = depth[k], speed[k]
         if time[k] >= rest:
             y, u = final, 0.0
         elif time[k] >= end:
-            y, u = _beyond(time[k] * V / R - crossing, b, c, at_radius)
+            y, u = _beyond(time[k] * V / R - reached, b, c, at_radius)
         depth[k], speed[k] = R * min(y, final), V * max(u, 0.0)
 
 
@@ -116,16 +116,14 @@ def _time(
     if depth == 0:
         return 0.0
     b, c, final, at_radius = _equation(V, rho_p, rho_t, R_t)
-    time, y, u = 0.0, depth / R, speed / V
+    reached, y, u = 0.0, depth / R, speed / V
     terms = zeros(4, ORDER + 1)
     for start, unit, length in _steps(terms, b, c, min(final, 1.0), at_radius):
         at, dy = _state(terms, length)
         if u > 0 and (at >= y or dy <= u * unit):
             return (start + _locate(terms, y, u * unit, b, c * unit * unit, length) * unit) * R / V
-        time = (start + length * unit) * R / V
-    if at_radius > 0:
-        time = (time * V / R + _time_beyond(u, b, c, at_radius)) * R / V
-    return time
+        reached = start + length * unit
+    return (reached + _time_beyond(u, b, c, at_radius)) * R / V
 
 
 def _equation(
@@ -152,7 +150,7 @@ def _beyond(time: float, b: float, c: float, at_radius: float) -> tuple[float, f
 
 
 def _time_beyond(u: float, b: float, c: float, at_radius: float) -> float:
-    """Return the time from y = 1 until the velocity has fallen to u."""
+    """Return the time from y = 1 until the velocity is u; 0 if the motion ends before."""
     k = math.sqrt(c / b)
     return math.atan2(k * (at_radius - u), k * k + at_radius * u) / math.sqrt(b * c)
 
@@ -216,7 +214,10 @@ def _expand(terms: Array, b: float, c: float) -> float:
 
 
 def _states(y: Array, w: Array, s: Array, at: Array, dy: Array, count: int) -> None:
-    """Fill in y (`at`) and w (`dy`) at the first `count` times s."""
+    """Fill in y (`at`) and w (`dy`) at the first `count` times s.
+
+    With single rows and a count as arguments the compiler finds that it can use vectors.
+    """
     for i in range(count):
         depth, speed = y[ORDER], w[ORDER]
         for k in range(ORDER - 1, -1, -1):
