@@ -1,4 +1,4 @@
-"""The report's two cases, and a case as the user names it: from a file, by inputs with units."""
+"""The report's two cases, and reading a user's case from names, files and inputs with units."""
 
 from collections.abc import Mapping
 from dataclasses import asdict, replace
@@ -20,8 +20,7 @@ INPUTS = {
     "step": "s",
     "stop_velocity": "m/s",
 }
-"""Every input of a case and the SI unit that a plain number is taken to be in."""
-
+"""The inputs of a case, with the SI unit of a number without one."""
 
 BETA_3, BETA_5 = (
     Impact(**{name: float(load().value(claim)) for name, claim in claims_of_case(beta).items()})
@@ -31,7 +30,7 @@ CASES = {"beta-3": BETA_3, "beta-5": BETA_5}
 
 
 def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
-    """The named case, changed by what the file gives, changed by what is given singly.
+    """Return the named case with the inputs of the file and then the given ones replaced.
 
     Inputs are texts such as "11 um" or "1.1e-5". Raises ValueError or OSError.
 
@@ -48,9 +47,9 @@ def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
 
 
 def changed(impact: Impact, values: Mapping[str, float]) -> Impact:
-    """A case with other inputs; raises ValueError as `Impact` does.
+    """Return the case with some inputs replaced; raises ValueError as `Impact` does.
 
-    A resistance takes the place of beta and flow stress, and the other way round.
+    A resistance replaces beta and flow stress, and either of these replaces a resistance.
 
     >>> changed(BETA_5, {"resistance": 2e9}).target_resistance
     2000000000.0
@@ -64,5 +63,5 @@ def changed(impact: Impact, values: Mapping[str, float]) -> Impact:
 
 
 def inputs_of(impact: Impact) -> dict[str, float | None]:
-    """The inputs of a case in SI, with the resistance that follows from them."""
+    """Return the inputs of a case in SI units, including the resistance that follows from them."""
     return {**asdict(impact), "resistance": impact.target_resistance}

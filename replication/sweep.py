@@ -1,7 +1,7 @@
-"""Sweeps: many cases by a plan from a TOML file, computed in blocks, written as CSV or Parquet.
+"""Sweeps: many cases planned in a TOML file, computed in blocks, written as CSV or Parquet.
 
-The values of an input come from a list or a range, a distribution, or Eq. 1. All lie within the
-`bounds` of their source, rounding included, so that a sweep is refused before it runs.
+The values of an input come from a list, a range, a distribution, or Eq. 1. All of them lie within
+the `bounds` of their source, even after rounding, so that invalid inputs are found before the run.
 """
 
 import hashlib
@@ -29,28 +29,29 @@ from spreadsheets.safely import check_target, draft_of
 Floats = npt.NDArray[np.float64]
 
 BLOCK = 65_536
-"""Cases that are computed together, and in Parquet form a row group. Part of the file's bytes."""
+"""Number of cases computed together; also a row group in Parquet, so it determines the bytes."""
 
 MAX_CASES, MAX_POINTS = 10**12, 10**7
-"""The most cases of a plan, days of work for many cores; the most points of a range, in memory."""
+"""The most cases of a plan (days of work for many cores) and points of a range (held in memory)."""
 
 RESULTS = {"depth": "m", "normalized_depth": "1", "beyond_radius": ""}
-"""What is computed of every case, with its SI unit: none for a truth value."""
+"""The results of every case, with their SI units (none for a truth value)."""
 
 EXTRAS = {"stop_time": "s", "sheet_depth": "m", "sheet_steps": "1"}
-"""What is computed only if asked for."""
+"""The optional results, with their SI units."""
 
-# Where the values of an input come from
+# The sources of an input's values
 
 LEAST_SHARE = 2.0**-53
-"""The least of the uniform numbers; the greatest is 1 minus it."""
+"""The smallest of the uniform numbers; the largest is 1 minus this."""
 
 
 def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
-    """Uniform numbers in (0, 1) of the cases from `first` on, shape (count,).
+    """Return uniform random numbers in (0, 1) for the cases from `first` on, shape (count,).
 
-    Each is a function of the seed, the stream (one for each input) and the number of its case, of
-    which Philox makes four random words at a time. Their upper 52 bits plus one half are scaled.
+    Each depends only on the seed, the stream (one for each input) and the number of the case. The
+    generator Philox gives four words for each value of its counter; the upper 52 bits of a word,
+    plus one half, are scaled to a number.
 
     >>> bool((uniform(1, 0, 0, 10)[7:] == uniform(1, 0, 7, 3)).all())
     True
@@ -64,8 +65,8 @@ def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
 class Source:
     """The values of one input, all within `bounds`.
 
-    Of a list, `count` is how many there are, and `at` gives those at positions, from 0 on. Of a
-    distribution, `count` is None, and `at` gives its quantiles for probabilities between 0 and 1.
+    For a list of `count` values, `at` returns those at positions counted from 0. For a
+    distribution, `count` is None, and `at` returns its quantiles for probabilities between 0 and 1.
     """
 
     bounds: tuple[float, float]
@@ -78,10 +79,10 @@ class Plan:
     """The cases of a sweep.
 
     `sources` has every input, in the file's order: the first varies slowest. Each combination of
-    listed values has `samples` cases, drawn by the `seed`. A velocity that follows from the mass,
-    by Eq. 1, is not in `sources`: `by_mass` has its average_velocity V [m/s] and average_mass m_o
-    [kg]. `extras` are names of `EXTRAS`; `digest` is the SHA-256 of the file. Raises ValueError
-    where a combination of inputs would leave the range that `Impact` allows.
+    listed values has `samples` cases, drawn with `seed`. If the velocity follows from the mass, by
+    Eq. 1, it is not in `sources`, and `by_mass` has the average_velocity V [m/s] and average_mass
+    m_o [kg]. `extras` are names of `EXTRAS`; `digest` is the SHA-256 of the file. Raises ValueError
+    if a combination of inputs leaves the range that `Impact` allows.
     """
 
     sources: dict[str, Source]
@@ -95,13 +96,13 @@ class Plan:
     def __post_init__(self) -> None:
         if self.count > MAX_CASES:
             raise ValueError(f"has more than {MAX_CASES:,} cases: split it into several plans")
-        # All that `Impact` checks is monotone in each input: the ends stand for the rest.
+        # All quantities that `Impact` checks are monotone in each input, so the ends suffice.
         bounds = {name: dict.fromkeys(source.bounds) for name, source in self.sources.items()}
         for corner in itertools.product(*bounds.values()):
             case = dict(zip(bounds, corner, strict=True))
             if law := self.by_mass:
                 mass = particle_mass(case["radius"], case["particle_density"])
-                # Without a mass there is no velocity: infinity, which is refused.
+                # If the mass underflows to zero, `Impact` must refuse the velocity.
                 case["velocity"] = particle_velocity(mass=mass, **law) if mass else math.inf
             try:
                 Impact(**case)
@@ -112,7 +113,7 @@ class Plan:
 
     @property
     def grid(self) -> dict[str, int]:
-        """How many values each listed input has, the slowest first."""
+        """The number of values of each listed input, the slowest first."""
         return {name: source.count for name, source in self.sources.items() if source.count}
 
     @property
@@ -127,13 +128,13 @@ class Plan:
 
     @property
     def columns(self) -> dict[str, str]:
-        """The columns in order, inputs then results: SI unit (none for a truth value)."""
+        """The SI unit of each column, inputs before results (none for a truth value)."""
         given = {*self.sources, "velocity", "resistance"}
         inputs = {name: unit for name, unit in INPUTS.items() if name in given}
         return inputs | RESULTS | {name: EXTRAS[name] for name in self.extras}
 
     def inputs(self, first: int, count: int) -> dict[str, Floats]:
-        """The inputs of the cases from `first` on, each of shape (count,), SI, in INPUTS' order."""
+        """Return the inputs (SI) of `count` cases from `first` on, in the order of `INPUTS`."""
         values: dict[str, Floats] = {}
         position = np.arange(first, first + count) // self.samples
         for name, size in reversed(self.grid.items()):
@@ -152,10 +153,10 @@ class Plan:
 
 
 def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
-    """Inputs and results of `count` cases from number `first` on, by column, SI.
+    """Compute `count` cases from number `first` on; return inputs and results (SI) by column.
 
-    Each has the shape (count,), and is the same for a case whatever is computed beside it. Raises
-    ValueError naming the case that the sheet refuses.
+    Each column has the shape (count,). A case has the same results whatever cases are computed with
+    it. Raises ValueError naming the case that the sheet refuses.
     """
     inputs = plan.inputs(first, count)
     motion: dict[str, Any] = {name: inputs[name] for name in BETA_5.motion}
@@ -177,15 +178,15 @@ def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
     return {name: (inputs | results)[name] for name in plan.columns}
 
 
-# The TOML file, checked at the door (format: docs/sweeps/README.md)
+# Reading and checking the TOML file (format: docs/sweeps/README.md)
 
 Table = dict[str, Any]
 
 
 def read_plan(path: Path) -> Plan:
-    """The plan that a TOML file describes.
+    """Read a plan from a TOML file.
 
-    Raises OSError, or ValueError that names the file, the table, the key and what would be right.
+    Raises OSError, or a ValueError that names the file, the table, the key and what is allowed.
     """
     with tables_of(path, ["inputs"], ["sweep"]) as (tables, content):
         settings, table = tables.get("sweep", {}), tables["inputs"]
@@ -208,7 +209,7 @@ def read_plan(path: Path) -> Plan:
 
 
 def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
-    """How many cases to draw, and the seed."""
+    """Return how many cases to draw, and the seed."""
     if not drawn:
         for key in ("samples", "seed"):
             if key in settings:
@@ -221,7 +222,7 @@ def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
 
 
 def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], dict[str, float] | None]:
-    """The sources of all inputs, the table's in its order; those of the case fill in."""
+    """Return the sources of all inputs: those of the table in its order, others from the case."""
     check_keys(table, [], INPUTS)
     replaced = ("beta", "flow_stress") if "resistance" in table else ("resistance",)
     rest = {name: getattr(case, name) for name in INPUTS if name not in (*table, *replaced)}
@@ -239,7 +240,7 @@ def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], dict[str, f
 
 
 def read_source(name: str, value: Any) -> Source:
-    """The source of an input, which may still be out of range. Raises ValueError.
+    """Read the source of an input, which may still be out of range. Raises ValueError.
 
     >>> read_source("radius", {"from": "1 um", "to": "5 um", "points": 3}).bounds
     (1e-06, 5e-06)
@@ -259,6 +260,7 @@ def read_source(name: str, value: Any) -> Source:
 
 
 def _spaced(table: Table, unit: str) -> Floats:
+    """Return the values of a range."""
     check_keys(table, ["from", "to", "points"], ["scale"])
     scale = table.get("scale", "linear")
     if scale not in ("linear", "log"):
@@ -277,6 +279,7 @@ def _spaced(table: Table, unit: str) -> Floats:
 
 
 def _drawn(table: Table, unit: str) -> Source:
+    """Read a distribution."""
     kind, kinds = table["distribution"], ("normal", "lognormal", "uniform", "loguniform")
     if kind not in kinds:
         raise ValueError(f"there is no {kind!r}: choose one of {', '.join(kinds)}")
@@ -297,10 +300,10 @@ def _drawn(table: Table, unit: str) -> Source:
 def _distribution(
     lower: float, upper: float, log: bool, mean: float | None, deviation: float
 ) -> Source:
-    """The distribution of a quantity or (log) of its logarithm, by the inverse of its probability.
+    """Return the distribution of a quantity or, if `log`, of its logarithm, by its quantiles.
 
-    It is normal if there is a mean, and truncated: a value outside of lower and upper counts as
-    drawn again.
+    It is normal if there is a mean, else uniform. It is truncated at lower and upper, as if values
+    outside were drawn again.
     """
     from scipy.special import ndtri
 
@@ -319,13 +322,13 @@ def _distribution(
 
     def quantile(share: Floats) -> Floats:
         values = low + (high - low) * share
-        if normal:  # rounding must not make the share 1
+        if normal:  # rounding must not make a share 1
             values = normal.mean + normal.stdev * ndtri(np.minimum(values, 1 - LEAST_SHARE))
-        with np.errstate(over="ignore"):  # to infinity, which no input may be
+        with np.errstate(over="ignore"):  # the result is infinity, which is then refused
             return np.clip(np.exp(values) if log else values, lower, upper)
 
     least, greatest = quantile(np.array([LEAST_SHARE, 1 - LEAST_SHARE])).tolist()
-    # SciPy's inverse of the normal distribution has 15 digits, and may fall by the last of them.
+    # SciPy's inverse of the normal distribution is correct to 15 digits, so it may decrease a bit.
     wide = (least - 1e-14 * abs(least), greatest + 1e-14 * abs(greatest))
     least, greatest = np.clip(wide, lower, upper).tolist()
     if least < 0:
@@ -334,6 +337,7 @@ def _distribution(
 
 
 def _by_mass(name: str, table: Table) -> dict[str, float]:
+    """Read the velocity and the mass of the average particle, for Eq. 1."""
     if name != "velocity":
         raise ValueError("only the velocity follows from the mass, by Eq. 1")
     units = {"average_velocity": "m/s", "average_mass": "kg"}
@@ -352,7 +356,7 @@ def _whole_number(key: str, value: Any, least: int, greatest: int) -> int:
     return value
 
 
-# The file of the cases, written whole or not at all
+# Writing the file of the cases, completely or not at all
 
 
 def write(
@@ -362,11 +366,11 @@ def write(
     numbers: range | None = None,
     done: Callable[[int], object] = lambda _: None,
 ) -> None:
-    """Compute the blocks of these numbers (default: all) and write them to one file.
+    """Compute the blocks with these numbers (default: all) and write them to one file.
 
-    The path's suffix is .csv or .parquet. `done` is told the number of cases of each block. The
-    same plan and numbers make the same bytes. Raises as `check_output` and `compute` do, and leaves
-    no file then.
+    The path's suffix is .csv or .parquet. `done` is called with the number of cases of each block.
+    The same plan and numbers give the same bytes. Raises as `check_output` and `compute` do, and
+    then leaves no file.
     """
     import pyarrow as pa
 
@@ -380,9 +384,9 @@ def write(
     numbers = range(plan.blocks) if numbers is None else numbers
     with (
         draft_of(path) as draft,
-        draft.open("wb") as file,  # Python's own, whose errors have a number
+        draft.open("wb") as file,  # Python's own file, as its errors have an errno
         _writer(path.suffix.lower(), file, plan, schema) as writer,
-        ThreadPoolExecutor(1) as pool,  # a block is written while the next is computed
+        ThreadPoolExecutor(1) as pool,  # writes a block while the next is computed
     ):
         written = pool.submit(lambda: None)
         for number in numbers:
@@ -404,17 +408,17 @@ def _writer(suffix: str, file: Any, plan: Plan, schema: Any) -> Any:
         return CSVWriter(file, schema, write_options=WriteOptions(include_header=False))
     from pyarrow.parquet import ParquetWriter
 
-    # Dictionaries do not pay: the results hardly repeat, and the inputs compress as they are.
+    # Dictionaries do not pay: results hardly repeat, and inputs compress well without them.
     return ParquetWriter(file, schema, compression="zstd", use_dictionary=False)
 
 
 def provenance(plan: Plan) -> dict[str, str]:
-    """What a file comes from: the program's version and the SHA-256 of the sweep's TOML file."""
+    """Return the origin of a file: the program's version and the SHA-256 of the TOML file."""
     return {"coldspray": version("coldspray"), "sweep_sha256": plan.digest}
 
 
 def check_output(path: Path) -> None:
-    """Before any work, raise ValueError for another suffix, and OSError as `check_target` does."""
+    """Raise ValueError for another suffix, and OSError as `check_target` does."""
     if path.suffix.lower() not in (".csv", ".parquet"):
         raise ValueError(f"{path}: the file's name must end in .csv or .parquet")
     check_target(path)

@@ -1,8 +1,8 @@
 """A sweep on a dask cluster: `python on_dask.py PLAN.toml FOLDER [SCHEDULER]`.
 
-Each task writes some blocks as a Parquet file, in a folder that all workers see. Its name is the
-SHA-256 of the plan. A file is there only when it is whole, so that another run of the same plan
-takes up where one was interrupted. Without the address of a scheduler ("tcp://host:8786") the
+Each task writes some blocks as a Parquet file, to a folder that all workers can access. The
+folder's name is the SHA-256 of the plan. Only complete files exist, so that another run of the same
+plan continues an interrupted one. Without the address of a scheduler ("tcp://host:8786") the
 cluster is this machine.
 """
 
@@ -14,11 +14,11 @@ from distributed import Client, as_completed
 
 from replication.sweep import Plan, read_plan, write
 
-BLOCKS = 64  # of a task: four million cases, some 130 MB
+BLOCKS = 64  # per task: four million cases, about 130 MB
 
 
 def write_part(plan: Plan, folder: Path, first: int) -> Path:
-    """Write the part that begins with block `first`, unless it is there already."""
+    """Write the part that begins with block `first`, unless it exists."""
     part = folder / f"part-{first:08}.parquet"
     if not part.exists():
         write(plan, part, numbers=range(first, min(first + BLOCKS, plan.blocks)))

@@ -1,1 +1,1 @@
-"""Speed against error: this project's methods and what others would use instead, in one run."""
+"""Speed against error of this project's methods and of the alternatives, in one run."""

@@ -1,6 +1,6 @@
-"""What is measured, every method at every setting, on cases with their exact motion; and how.
+"""Time every method at every setting on cases whose exact motion is known, and rank them.
 
-Of methods that reach so many digits the fastest is found.
+For each number of digits the fastest method is found.
 """
 
 import math
@@ -35,7 +35,7 @@ from replication.models.sheet import SCHEMES, run
 
 Measure = Literal["depth", "history"]
 MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}
-"""What can be asked of a method, and its title."""
+"""The quantities that a method can compute, with their titles."""
 
 CASES = {
     "beta-5": "the report's beta-5",
@@ -44,17 +44,17 @@ CASES = {
     "shallow": "slow, 1 m/s",
     "hypervelocity": "hypervelocity, 1e4 m/s",
 }
-"""The cases' names on the command line, and among the hard cases."""
+"""The cases by their names on the command line, with their names among the hard cases."""
 
 POINTS = 101
-"""Times of a history, first and last included."""
+"""Number of times of a history, including the first and the last."""
 
 
 @dataclass(frozen=True, slots=True)
 class Case:
     """One case with its exact motion.
 
-    `times` [s], shape (POINTS,), run from the impact to rest; `depths` [m] are the exact ones.
+    `times` [s], shape (POINTS,), run from touch to rest; `depths` [m] are the exact depths then.
     """
 
     name: str
@@ -64,17 +64,17 @@ class Case:
     depths: tuple[Number, ...]
 
     def columns(self, count: int) -> list[Any]:
-        """The inputs of so many cases, with velocities up to 10 % below and above this one's."""
+        """The inputs of `count` cases, with velocities up to 10 % below and above this one's."""
         spread = 0.1 * (count > 1) * np.linspace(-1, 1, count)
         velocity, *others = (np.full(count, value) for value in self.impact.motion.values())
         return [velocity * (1 + spread), *others]
 
     def error(self, measure: Measure, answer: Any, stop: float = 0.0) -> float:
-        """The worst relative error of depths [m], measured down to a velocity [m/s], 0 for rest.
+        """Return the largest relative error of depths [m], down to the velocity `stop` [m/s].
 
-        Of the final depths of `columns` eleven are compared. Those of a "history" are at `times`,
-        in the middle row if there is one for each case, with errors relative to the depth at rest.
-        Of a tuple of results, such as depth and velocity, the first is compared.
+        Eleven of the final depths of `columns` are compared. A history's depths are at `times`,
+        with errors relative to the depth at rest; if there is a row for each case, the middle one
+        is compared. Of a tuple of results, such as depth and velocity, the first is compared.
         """
         computed = np.atleast_1d(answer[0] if isinstance(answer, tuple) else answer)
         if measure == "depth":
@@ -94,7 +94,7 @@ class Case:
 
 
 def build(name: str) -> Case:
-    """One of `CASES`. Raises ValueError for another name.
+    """Build one of `CASES`. Raises ValueError for another name.
 
     >>> case = build("beta-5")
     >>> f"{case.times[-1] * 1e9:.3f} ns", f"{case.error('depth', 7.67e-6):.1e}"
@@ -105,14 +105,14 @@ def build(name: str) -> Case:
     impact = changed(BETA_5, HARD_CASES[CASES[name]])
     motion, times, depths = exact_motion(impact), list[float](), list[Number]()
     for k in range(POINTS):
-        # Depths X (1 - s^2), with s falling evenly, are about evenly spaced in time. The time for a
-        # depth takes one quadrature, the depth for a time would take a dozen.
+        # Depths X (1 - s^2), for equally spaced s, are about equally spaced in time. Finding the
+        # time of a depth takes one quadrature; finding the depth at a time would take a dozen.
         s = motion.reals.number(Fraction(POINTS - 1 - k, POINTS - 1))
         depth = motion.final_depth * (1 - s * s)
         time = motion.time_to_depth(depth)
         times.append(float(time))
-        # Rounding the time to a double leaves out 1e-16 of the motion; one Taylor step adds that
-        # again, to within 1e-32.
+        # Rounding the time to a double changes the depth by about 1e-16; a first-order correction
+        # makes up for that to within 1e-32.
         rounding = motion.context.mpf(times[-1]) - time
         depths.append(depth + motion.velocity_at_depth(depth) * rounding)
     return Case(name, impact, motion, np.array(times), tuple(depths))
@@ -126,9 +126,9 @@ STEPS = (16.0, 4.0, 1.0, 1 / 4, 1 / 16, 1 / 64)
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """A method at a setting: `run` answers what `measure` asks, down to a velocity `stop` [m/s].
+    """A method at a setting: `run` computes the quantity `measure`, down to `stop` [m/s].
 
-    One run computes `cases` cases at once; the first compiles the method if it is `compiled`.
+    One run computes `cases` cases at once. If the method is `compiled`, the first run compiles it.
     """
 
     method: str
@@ -141,7 +141,7 @@ class Task:
 
 
 def tasks(case: Case) -> Iterator[Task]:
-    """Every method at every setting: this project's, solvers of the equation, and plain loops."""
+    """Yield every method at every setting: this project's, ODE solvers, and plain loops."""
     given, stop = tuple(case.impact.motion.values()), case.impact.stop_velocity
     steps = [(step, f"{step * 1e9:.5g} ns") for step in (case.impact.step * f for f in STEPS)]
     for scheme, (step, setting) in product(SCHEMES, steps):
@@ -179,9 +179,9 @@ def _many(name: str, setting: str, case: Case, work: Function, count: int, stop:
 
 
 def _rows(impact: Impact, scheme: str, times: Any) -> Any:
-    """The depths of the rows between which the times lie, on straight lines; or the last.
+    """Return the sheet's final depth, or its depths interpolated linearly at the times.
 
-    The scheme's x stands in the middle of its row, half a step before the time printed there.
+    The scheme's x belongs to the middle of its row, half a step before the time of the row.
     """
     rows = run(impact, scheme).rows
     if times is None:
@@ -197,7 +197,7 @@ def _plain_history(times: Any, given: tuple[float, ...]) -> list[float]:
 
 
 def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[Task]:
-    """Final depth and history by a solver, which takes b, c and times, and gives y = x/R."""
+    """Yield final depth and history by a solver, which returns y = x/R for b, c and times."""
     impact, R = case.impact, case.impact.radius
     b = 3 * impact.target_density / (8 * impact.particle_density)
     c = 3 * impact.target_resistance / (4 * impact.particle_density * impact.velocity**2)
@@ -208,10 +208,10 @@ def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[
     yield task("history", lambda: R * np.asarray(solve(b, c, times)))
 
 
-# ---- measuring it
+# Measuring
 
 Point = dict[str, Any]
-"""What `trial` measures of a task, as in the JSON."""
+"""The measurements of a task by `trial`, as in the JSON."""
 
 DIGITS = range(1, 16)
 
@@ -219,20 +219,23 @@ DIGITS = range(1, 16)
 def bench(
     names: Sequence[str], repeat: int = 7, limit: float = 5.0, quiet: bool | None = True
 ) -> dict[str, Any]:
-    """Measure everything on the named cases: the JSON of `coldspray bench`.
+    """Measure all tasks on the named cases: the JSON of `coldspray bench`.
 
-    A task's repeats get about `limit` seconds. The tasks of a case take turns, so that a busy spell
-    of the machine spoils one repeat of each and not all of one. Unless `quiet` there is a progress
-    bar; if that is None, on a terminal. Raises ValueError for another case or no positive limit.
+    The repeats of a task get about `limit` seconds. The tasks of a case take turns, so that a busy
+    spell of the machine spoils one repeat of each rather than all repeats of one. Unless `quiet`,
+    there is a progress bar; if it is None, only on a terminal. Raises ValueError for an unknown
+    case or a limit that is not positive.
     """
     if not limit > 0:
         raise ValueError(f"a limit of {limit:g} s: it must be greater than zero")
     cases = [build(name) for name in names]
     measured = []
     with tempfile.TemporaryDirectory() as empty:
-        numba.config.CACHE_DIR = empty  # so that all is compiled anew
-        arrays.ufunc.cache_clear()
-        numba.vectorize(["f8(f8)"])(error_for)  # starting the compiler is no method's cost
+        numba.config.CACHE_DIR = empty  # so that everything is compiled again
+        arrays.compiled.cache_clear()
+        numba.vectorize(["f8(f8)"])(
+            error_for
+        )  # start the compiler, which is not part of any method's time
         for case in cases:
             trials = [trial(case, task, repeat, limit) for task in tasks(case)]
             with tqdm(trials * (1 + repeat), case.name, leave=False, disable=quiet) as turns:
@@ -252,11 +255,11 @@ def bench(
 
 
 def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
-    """A task's point, measured in turns: the first warms it up, the others time a batch each.
+    """Yield a task's point once a turn: the first turn warms up, each other turn times a batch.
 
-    It has the relative error; `best` and `median`, in s for one case, of `repeats` batches of
-    `calls` calls; and, of a compiled method, how much longer the first call took. A task that fails
-    or takes longer than the limit is not measured; `gap` then says why.
+    The point has the relative error; `best` and `median` of `repeats` batches of `calls` calls, in
+    s per case; and for a compiled method the extra time of the first call. A task that fails or
+    takes longer than the limit is not measured; `gap` then gives the reason.
     """
     names = ("error", "compile", "best", "median", "repeats", "calls", "gap")
     point: Point = {"method": task.method, "setting": task.setting, "measure": task.measure}
@@ -286,19 +289,19 @@ def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
 
 
 def met(point: Point) -> float:
-    """The error that counts: at least half an ulp, as less is luck; infinity for a gap."""
+    """Return the error to compare: at least half an ulp, as less is luck; infinite for a gap."""
     return math.inf if point["gap"] else max(float(point["error"]), 2.0**-53)
 
 
 def ranked(points: Sequence[Point], measure: Measure, many: bool) -> list[Point]:
-    """Those without a gap, the fastest first; if `many`, also those of many cases at once."""
+    """Return the points without a gap, fastest first; many cases at once count only if `many`."""
     asked = (p for p in points if not p["gap"] and p["measure"] == measure)
     able = (p for p in asked if many or p["cases"] == 1)
     return sorted(able, key=lambda point: (point["best"], met(point)))
 
 
 def mark_front(points: Sequence[Point]) -> None:
-    """Mark the Pareto front of one case at a time: no other is faster and at least as accurate."""
+    """Mark the Pareto front of single cases: no other point is faster and at least as accurate."""
     for measure in MEASURES:
         least = math.inf
         for point in ranked(points, measure, many=False):
@@ -307,7 +310,7 @@ def mark_front(points: Sequence[Point]) -> None:
 
 
 def error_for(digits: int) -> float:
-    """The greatest relative error that leaves so many digits correct.
+    """Return the greatest relative error that leaves this many digits correct.
 
     >>> error_for(3)
     0.0005
@@ -316,7 +319,7 @@ def error_for(digits: int) -> float:
 
 
 def fastest(points: Sequence[Point], many: bool, measure: Measure, digits: int) -> dict[str, Any]:
-    """The fastest method for so many digits and its `best` time [s]; None where there is none."""
+    """Return the fastest method for these digits and its `best` time [s]; None if there is none."""
     able = (point for point in ranked(points, measure, many) if met(point) <= error_for(digits))
     first = next(able, None)
     method = first and f"{first['method']}, {first['setting']}"
@@ -325,8 +328,8 @@ def fastest(points: Sequence[Point], many: bool, measure: Measure, digits: int) 
 
 
 def _machine() -> dict[str, Any]:
-    """Processor, number of cores, system, and the versions of Python and the libraries."""
-    file = Path("/proc/cpuinfo")  # where Linux tells the processor's name
+    """Return processor, number of cores, system, and the versions of Python and the libraries."""
+    file = Path("/proc/cpuinfo")  # has the processor's name on Linux
     lines = file.read_text("utf-8").splitlines() if file.exists() else []
     models = (line.partition(":")[2].strip() for line in lines if line.startswith("model name"))
     names = ("coldspray", "numpy", "numba", "scipy", "heyoka")

@@ -1,8 +1,8 @@
-"""The peers: what others would use instead, written as they would write it.
+"""The alternatives to this project's methods, written as a user would write them.
 
-Solvers take y = x/R, u = v/V and time in units of R/V: y' = u and u' = -(b u^2 + c) A(y)
-(Eqs. 12-13). A solver gets its setting, b, c and times, and gives y at these times. SciPy's
-`solve_ivp` finds rest by an event; the others are told when it comes, and integrate up to there.
+Solvers work with y = x/R, u = v/V and time in units of R/V: y' = u and u' = -(b u^2 + c) A(y)
+(Eqs. 12-13). A solver takes its setting, b, c and times, and returns y at these times. SciPy's
+`solve_ivp` finds rest by an event; the others integrate up to the given time of rest.
 """
 
 import math
@@ -14,7 +14,7 @@ import numba
 import numpy as np
 
 Function = Callable[..., Any]
-njit: Callable[[Function], Function] = numba.njit  # which has no types
+njit: Callable[[Function], Function] = numba.njit  # Numba's own has no type hints
 
 
 @njit
@@ -37,10 +37,10 @@ def _solve_ivp(method: str, tolerance: float, b: float, c: float, times: Any) ->
     def rest(_: float, state: Any) -> Any:
         return state[1]
 
-    vars(rest).update(terminal=True, direction=-1)  # which is how SciPy is told
+    vars(rest).update(terminal=True, direction=-1)  # SciPy reads these attributes
     options: Any = {"method": method, "rtol": tolerance, "atol": tolerance, "events": rest}
     wanted = times if len(times) > 2 else None
-    with np.errstate(all="ignore"):  # of a trial step that went too far, and is rejected
+    with np.errstate(all="ignore"):  # from trial steps that are rejected
         solved = solve_ivp(motion, (0.0, 2 * times[-1]), (0.0, 1.0), t_eval=wanted, **options)
     if solved.status != 1:
         raise ArithmeticError(f"never at rest: {solved.message}")
@@ -66,7 +66,10 @@ def _dop853(tolerance: float, b: float, c: float, times: Any) -> Any:
 
 
 def _runge_kutta(*rows: tuple[float, ...]) -> Function:
-    """The explicit method of a tableau: its rows, then its weights; equal steps between times."""
+    """Return the explicit method of a Butcher tableau, with equal steps between the times.
+
+    The arguments are the rows of its matrix but the first, which is empty, and then its weights.
+    """
     stages, weights = len(rows), np.array(rows[-1])
     inner = np.array([(*row, *[0.0] * (stages - len(row))) for row in ((), *rows[:-1])])
 
@@ -94,7 +97,7 @@ def _runge_kutta(*rows: tuple[float, ...]) -> Function:
 
 
 _RK4 = _runge_kutta((1 / 2,), (0, 1 / 2), (0, 0, 1), (1 / 6, 1 / 3, 1 / 3, 1 / 6))
-_RK6 = _runge_kutta(  # of Butcher, 1964
+_RK6 = _runge_kutta(  # Butcher, 1964
     (1 / 3,), (0, 2 / 3), (1 / 12, 1 / 3, -1 / 12), (-1 / 16, 9 / 8, -3 / 16, -3 / 8),
     (0, 9 / 8, -3 / 8, -3 / 4, 1 / 2), (9 / 44, -9 / 11, 63 / 44, 18 / 11, 0, -16 / 11),
     (11 / 120, 0, 27 / 40, 27 / 40, -4 / 15, -4 / 15, 11 / 120),
@@ -116,7 +119,7 @@ def _heyoka(tolerance: float, b: float, c: float, times: Any) -> Any:
 
 @cache
 def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
-    """Integrators for up to y = 1, where the first one stops, and beyond."""
+    """Return an integrator that stops at y = 1, and one for the motion beyond."""
     try:
         import heyoka
     except ImportError as error:
@@ -131,7 +134,7 @@ def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
 
 
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 3e-14)
-"""Relative and absolute ones; SciPy refuses a relative one below 2.2e-14."""
+"""Relative and absolute tolerances; SciPy accepts no relative one below 2.2e-14."""
 
 SOLVERS: dict[str, tuple[str, Sequence[float], Function]] = {
     **{
@@ -144,10 +147,10 @@ SOLVERS: dict[str, tuple[str, Sequence[float], Function]] = {
     "RK6, Numba": ("{} steps", (100, 200, 400), _RK6),
     "heyoka": ("tol {:g}", (1e-6, 1e-10, 2.2e-16), _heyoka),
 }
-"""For each method: how a setting is shown, its settings, and the solver."""
+"""For each method: the format of a setting, the settings, and the solver."""
 
 
-# A bare function, and bare loops over cases on one core; without any check
+# A bare function, and bare loops over cases on one core, without any checks
 
 
 def bare_depth(V: float, R: float, rho_p: float, rho_t: float, R_t: float) -> float:

@@ -1,4 +1,4 @@
-"""What a run has measured, as text, JSON, CSV, and a figure a case."""
+"""The results of a run as text, JSON and CSV, and a figure for each case."""
 
 import io
 from collections.abc import Iterable, Iterator, Sequence
@@ -23,7 +23,7 @@ Times are a case's, in us: best and median of {repeats} that take turns, or of t
 
 
 def texts(record: dict[str, Any]) -> dict[str, str]:
-    """The files of a run that are text, by name."""
+    """Return the text files of a run, by file name."""
     cases = record["cases"]
     repeats = "1 repeat" if record["repeat"] == 1 else f"{record['repeat']} repeats"
     lines = [
@@ -64,10 +64,10 @@ def _cells(point: Point | None) -> tuple[str, ...]:
 
 
 def _answers(cases: Sequence[dict[str, Any]]) -> Iterator[str]:
-    """For one case at a time, then for many: what is the fastest for how many digits."""
+    """Yield the fastest methods by number of digits, for single cases and then for many."""
 
     def advice(row: Sequence[dict[str, Any]]) -> tuple[str, str]:
-        """What is asked; the method that is the fastest in all cases, or each with its cases."""
+        """Return the question, and the fastest method of all cases or each with its cases."""
         asked = MEASURES[row[0]["measure"]] + (" of many cases" if row[0]["many"] else "")
         where: dict[str, list[str]] = {}
         for case, answer in zip(cases, row, strict=True):
@@ -92,7 +92,7 @@ def _span(values: Sequence[float]) -> str:
 
 
 _STYLE: Any = {
-    "font.family": "DejaVu Sans",  # comes with matplotlib: the same letters on every machine
+    "font.family": "DejaVu Sans",  # comes with matplotlib, so that every machine has it
     "font.size": 9,
     "axes.spines.top": False,
     "axes.spines.right": False,
@@ -101,13 +101,13 @@ _STYLE: Any = {
     "grid.linewidth": 0.6,
     "lines.linewidth": 1.0,
     "lines.markersize": 4,
-    "svg.hashsalt": "coldspray",  # or the ids in the file would differ from run to run
+    "svg.hashsalt": "coldspray",  # otherwise ids in the file would differ from run to run
     "svg.fonttype": "none",
 }
 
 
 def figure(case: dict[str, Any]) -> bytes:
-    """The figure of one case as SVG: error against time a case, on a white ground."""
+    """Draw error against time for one case, as SVG on a white background."""
     import matplotlib as mpl
     from matplotlib.figure import Figure
     from matplotlib.rcsetup import cycler
@@ -130,17 +130,17 @@ def figure(case: dict[str, Any]) -> bytes:
             panel.step(*_line(front), "-", where="post", linewidth=6, alpha=0.2, **edge)
         labels = panel.get_legend_handles_labels()
         drawn.legend(*labels, loc="outside lower center", ncols=5, frameon=False)
-        # A date would make the same numbers another file.
+        # Without a date, the same numbers give the same file.
         drawn.savefig(content, format="svg", metadata={"Date": None})
     return content.getvalue()
 
 
 def _line(points: Iterable[Point]) -> Any:
-    """Times and errors; a gap, which has no time, breaks the line."""
+    """Return times and errors; a gap is NaN and breaks the line."""
     return np.array([(p["best"], met(p)) for p in points], float).reshape(-1, 2).T
 
 
 def write(folder: Path, record: dict[str, Any]) -> None:
-    """Write text, JSON, CSV and a figure a case into a folder, all or none. Raises OSError."""
+    """Write text, JSON, CSV and all figures into a folder, or none of them. Raises OSError."""
     figures = {f"bench-{case['name']}.svg": figure(case) for case in record["cases"]}
     write_folder(folder, {name: text.encode() for name, text in texts(record).items()} | figures)

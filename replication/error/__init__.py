@@ -1,36 +1,37 @@
-"""The sheet against the exact motion; in this module, the warnings about a run of the sheet."""
+"""The sheet compared with the exact motion. This module warns about bad runs of the sheet."""
 
 from replication.models.depth import depth_at_velocity, final_depth
 from replication.models.sheet import Sheet
 
 COARSE = 0.1
-"""The largest dt V / R, the share of the radius R that a step at the impact velocity V covers. In
-the report's cases the published scheme then falls some 1 % short of the exact depth, and as it is
-of first order, further short with longer steps."""
+"""The largest acceptable dt V / R, the share of the radius R covered by a step at the impact
+velocity V. In the report's cases the published scheme then falls about 1 % short of the exact
+depth; as it is first order, longer steps fall further short."""
 
 OFF_STOP = 0.01
-"""The share by which a depth may be off the exact one at the stop velocity. In the report's
-cases the published scheme reaches it where a step covers about `COARSE` R; a slow impact of few
-steps does so with shorter steps."""
+"""The largest acceptable relative error of a depth against the exact one at the stop velocity. In
+the report's cases the published scheme reaches it when a step covers about `COARSE` R; a slow
+impact of few steps reaches it with shorter steps."""
 
 DIGITS = 5e-4
-"""The share by which a depth may exceed the exact one, or the stop velocity leave it short: the
-report prints three digits, and half a unit of the third is at least that much."""
+"""The share by which a depth may exceed the exact depth at rest, or the exact depth at the stop
+velocity may fall short of it: half a unit of the third digit, the report's last, is at least this
+much."""
 
 
 def too_long(travel: float) -> bool:
-    """Whether dt V / R is more than `COARSE`; a tenth in decimals need not be one in doubles."""
+    """Return whether dt V / R exceeds `COARSE` by more than the rounding of decimal inputs."""
     return travel - COARSE > COARSE * 1e-12
 
 
 def warnings(sheet: Sheet) -> dict[str, str]:
-    """The warnings about a sheet: what is wrong, and a sentence with figures.
+    """Return the warnings about a sheet: a sentence with figures for each kind that applies.
 
-    "no steps": the impact velocity is below the stop velocity, and nothing else is to be said;
-    "reversed": its last velocity is below zero by more than the stop velocity; "coarse": dt V is
-    more than `COARSE` R; "deep": its depth is more than `DIGITS` beyond the exact one at rest;
-    "shallow", "overrun": it is more than `OFF_STOP` short of the exact one at the stop velocity, or
-    beyond it; "short": this is more than `DIGITS` short of that at rest.
+    "no steps": the impact velocity is below the stop velocity (then the only warning); "reversed":
+    the last velocity is below zero by more than the stop velocity; "coarse": dt V is more than
+    `COARSE` R; "deep": the depth exceeds the exact one at rest by more than `DIGITS`; "shallow" and
+    "overrun": the depth is more than `OFF_STOP` below or above the exact one at the stop velocity;
+    "short": the exact depth at the stop velocity is more than `DIGITS` below that at rest.
 
     >>> from dataclasses import replace
     >>> from replication.cases import BETA_5
@@ -38,33 +39,33 @@ def warnings(sheet: Sheet) -> dict[str, str]:
     >>> list(warnings(run(replace(BETA_5, step=1e-7))))
     ['reversed', 'coarse', 'deep']
     """
-    impact, last, said = sheet.impact, sheet.rows[-1], {}
+    impact, last, result = sheet.impact, sheet.rows[-1], {}
+    stop = f"the stop velocity {impact.stop_velocity!r} m/s"
     if last.velocity_final is None:
-        slow, least = impact.velocity, impact.stop_velocity
-        text = f"the velocity {slow!r} m/s is below the stop velocity {least!r} m/s: no steps"
-        return {"no steps": text}
+        return {"no steps": f"the velocity {impact.velocity!r} m/s is below {stop}: no steps"}
     if last.velocity_final < -impact.stop_velocity:
         share = 100 * -last.velocity_final / impact.velocity
         text = f"the last step reverses the velocity to {last.velocity_final:.4g} m/s"
-        said["reversed"] = f"{text}, {share:.2g} % of the impact velocity"
+        result["reversed"] = f"{text}, {share:.2g} % of the impact velocity"
     travel = impact.velocity * impact.step / impact.radius
     if too_long(travel):
         text = f"a step at the impact velocity covers {travel:.3g} of the radius"
-        said["coarse"] = f"{text}: keep it to {COARSE} at most"
+        result["coarse"] = f"{text}: keep it to {COARSE} at most"
     rest = final_depth(**impact.motion)
     if last.depth > rest * (1 + DIGITS):
         text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
-        said["deep"] = f"{text}, by {100 * (last.depth / rest - 1):.3g} %"
+        result["deep"] = f"{text}, by {100 * (last.depth / rest - 1):.3g} %"
     at_stop = depth_at_velocity(impact.stop_velocity, **impact.motion)
-    shallow = last.depth < at_stop
-    if abs(last.depth - at_stop) > OFF_STOP * at_stop and "deep" not in said:
-        which = "falls short of" if shallow else "exceeds"
-        text = f"the depth {which} the exact one at the stop velocity, {at_stop:.6g} m"
+    if abs(last.depth - at_stop) > OFF_STOP * at_stop and "deep" not in result:
+        kind, relation = "overrun", "exceeds"
+        if last.depth < at_stop:
+            kind, relation = "shallow", "falls short of"
+        text = f"the depth {relation} the exact one at the stop velocity, {at_stop:.6g} m"
         by = f", by {100 * abs(1 - last.depth / at_stop):.3g} %" if at_stop else ""
         cure = "take a shorter step" if at_stop else "the run begins at the stop velocity"
-        said["shallow" if shallow else "overrun"] = f"{text}{by}: {cure}"
+        result[kind] = f"{text}{by}: {cure}"
     short = 1 - at_stop / rest
     if short > DIGITS:
-        text = f"the stop velocity {impact.stop_velocity!r} m/s ends the run before rest"
-        said["short"] = f"{text}: {100 * short:.3g} % of the exact depth is still to come"
-    return said
+        left = f"{100 * short:.3g} % of the exact depth is still to come"
+        result["short"] = f"{stop} ends the run before rest: {left}"
+    return result

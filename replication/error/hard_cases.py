@@ -1,6 +1,6 @@
-"""The hard cases: sheet, closed form and reference side by side, or the message that refuses them.
+"""The hard cases: sheet, closed form and reference side by side, or the error message.
 
-And the closed form against the reference over random cases that span all sensible ranges.
+Also compares the closed form with the reference over random cases that span all sensible ranges.
 """
 
 import math
@@ -20,13 +20,13 @@ from replication.text import aligned
 
 
 def _half_buried(factor: float) -> dict[str, float]:
-    # With rho_t = 2 rho_p and ln(1 + p) = 1, p = rho_t V^2 / 2 R_t, the work c is 2/3: y = 1.
+    # With rho_t = 2 rho_p, ln(1 + p) = 1 and p = rho_t V^2 / 2 R_t, the work c is 2/3, so y = 1.
     resistance = 8000.0 * 500.0 * 500.0 / 2 / math.expm1(1.0) * factor
     return {"particle_density": 4000.0, "target_density": 8000.0, "resistance": resistance}
 
 
 def _shallow(velocity: float) -> dict[str, float]:
-    # At low velocities an impact lasts equally long: the stop velocity is the report's 1/500 of V.
+    # All slow impacts last equally long. The stop velocity is V/500, as in the report's cases.
     return {"velocity": velocity, "stop_velocity": velocity / 500}
 
 
@@ -75,16 +75,16 @@ HARD_CASES: Mapping[str, dict[str, float]] = {
     "radius squared underflows": {"radius": 1e-170, "particle_density": 1e302},
     "dynamic pressure below 1e-250": _shallow(1e-130),
 }  # fmt: skip
-"""What makes a case hard, and the inputs in which it differs from the report's beta-5."""
+"""For each hard case, named by what makes it hard, the inputs that differ from beta-5's."""
 
 
 def outcome(name: str) -> dict[str, Any]:
-    """The sheet, the closed form and the exact depth of a hard case; depths in m.
+    """Return the sheet, the closed form and the exact depth of a hard case; depths in m.
 
-    `refused` is the message where the inputs are refused, `sheet_refused` where only the sheet is.
-    `reference` is the exact depth to 20 digits, `ulps` the closed form's error in units of its last
-    place, `sheet_error` the sheet's error relative to the exact depth. What is not known is None.
-    Inputs that are no finite numbers are given as text.
+    `refused` is the error message if the inputs are refused, `sheet_refused` if only the sheet is.
+    `reference` is the exact depth to 20 digits, `ulps` the closed form's error in units in the last
+    place, `sheet_error` the sheet's error relative to the exact depth. What could not be computed
+    is None. Inputs that are not finite are given as text.
     """
     changes = HARD_CASES[name]
     result: dict[str, Any] = {
@@ -112,7 +112,7 @@ def outcome(name: str) -> dict[str, Any]:
 
 
 def random_cases(count: int, seed: int) -> Iterator[dict[str, float]]:
-    """The inputs (SI) of so many random cases; their logarithms are evenly distributed."""
+    """Yield the inputs (SI) of `count` random cases, uniformly distributed in the logarithm."""
     ranges = {
         "velocity": (1e-9, 1e5),
         "radius": (1e-12, 1e3),
@@ -120,8 +120,8 @@ def random_cases(count: int, seed: int) -> Iterator[dict[str, float]]:
         "target_density": (1e-1, 1e5),
         "resistance": (1.0, 1e15),
     }
-    # NumPy's generator would take longer to import than all cases to compute.
-    draw = random.Random(seed)  # noqa: S311  (no secret)
+    # Importing NumPy's generator would take longer than computing all cases.
+    draw = random.Random(seed)  # noqa: S311 - not for secrets
     for _ in range(count):
         yield {
             name: math.exp(draw.uniform(math.log(low), math.log(high)))
@@ -130,10 +130,10 @@ def random_cases(count: int, seed: int) -> Iterator[dict[str, float]]:
 
 
 def worst_of(count: int, seed: int) -> dict[str, Any]:
-    """The closed form's greatest error over so many random cases, and the inputs that gave it.
+    """Return the closed form's greatest error over `count` random cases, and that case's inputs.
 
-    Gives the number of `cases`, the error in `ulps`, and `inputs`. Cases whose depth is no normal
-    double are left out, and counted as `skipped`.
+    The keys are `cases`, the error in `ulps`, `inputs`, and `skipped`, the number of cases left out
+    because their depth is not a normal double.
     """
     worst, inputs, skipped = 0.0, dict[str, float](), 0
     for case in random_cases(count, seed):
@@ -147,9 +147,9 @@ def worst_of(count: int, seed: int) -> dict[str, Any]:
 
 @ctx.workdps(40)
 def _ulps(depth: float, case: dict[str, float]) -> float:
-    """Error of a depth in ulp, from the residual of the energy integral at it, in Arb.
+    """Return the error of a depth in ulp, from its residual in the energy integral, by Arb.
 
-    One Newton step turns the residual into a distance: over a few ulp the curvature is negligible.
+    One Newton step turns the residual into a distance, as curvature is negligible over a few ulp.
     """
     velocity, radius, particle, target, resistance = map(arb, case.values())
     pressure = target * velocity * velocity / (2 * resistance)
@@ -163,12 +163,12 @@ def _ulps(depth: float, case: dict[str, float]) -> float:
 
 
 def record(count: int, seed: int) -> dict[str, Any]:
-    """Every hard case, and the worst of so many random ones: the JSON of `coldspray stability`."""
+    """Return all hard cases and the worst random one: the JSON of `coldspray stability`."""
     return {"cases": list(map(outcome, HARD_CASES)), "random": worst_of(count, seed)}
 
 
 def text(record: dict[str, Any]) -> str:
-    """The hard cases as a table, notes under it, and the worst of the random cases."""
+    """Return the hard cases as a table, with notes below it and the worst of the random cases."""
     rows: list[tuple[str, ...]] = [
         ("case", "steps", "sheet X/m", "off by", "closed form X/m", "ulp", "exact X/m")
     ]

@@ -1,4 +1,4 @@
-"""The sheet's final depth against its time step: error, its parts, observed order, limit."""
+"""The sheet's final depth against its time step: error and its parts, observed order, limit."""
 
 import math
 from collections.abc import Sequence
@@ -20,20 +20,20 @@ Level = dict[str, Any]
 
 
 def exact_motion(impact: Impact) -> Trajectory:
-    """The exact motion of a case to 50 digits, its inputs taken as exact doubles."""
+    """Return the exact motion of a case to 50 digits, for its inputs as exact doubles."""
     return Trajectory(*map(Fraction, impact.motion.values()), digits=50)
 
 
 def split(sheet: Sheet) -> tuple[float, Budget]:
-    """The sheet's final depth minus the exact depth at rest [m], and the four parts of that [m].
+    """Return the sheet's final depth minus the exact depth at rest [m], and its four parts [m].
 
-    `time_step`: the scheme's depth, moved on by half a step, against the depth at which the exact
+    `time_step`: the scheme's depth, advanced by half a step, minus the depth at which the exact
     motion has the last row's velocity (Eq. 13 also describes the motion back out of the crater, so
-    a negative velocity has such a depth). `stop_rule`: that depth against the depth at rest.
-    `half_step`: x stands half a step behind the velocity that closes its row. `rounding`: doubles
-    against the same scheme in 50 digits. The parts are None where the last velocity is larger in
-    size than the impact velocity, as no exact motion has it. Each part is rounded to a double once,
-    so that they add up to the error within a few units of the last digit of the largest.
+    a negative velocity has such a depth). `stop_rule`: that depth minus the depth at rest.
+    `half_step`: the effect of x lagging half a step behind its row's final velocity. `rounding`:
+    doubles minus the same scheme in 50 digits. The parts are None if the last velocity exceeds the
+    impact velocity in size, as the exact motion never has it. Each part is rounded to a double
+    once, so that they add up to the error within a few units of the last digit of the largest.
 
     >>> from replication.cases import BETA_5
     >>> error, budget = split(run(BETA_5))
@@ -63,7 +63,7 @@ _PARTS = ("time_step", "stop_rule", "half_step", "rounding")
 
 
 def ladder(step: float, levels: int) -> list[float]:
-    """So many steps from 16 times the given one down by halves, coarsest first.
+    """Return `levels` steps, each half of the one before, starting at 16 times the given step.
 
     >>> ladder(2e-10, 6)
     [3.2e-09, 1.6e-09, 8e-10, 4e-10, 2e-10, 1e-10]
@@ -74,14 +74,12 @@ def ladder(step: float, levels: int) -> list[float]:
 def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") -> dict[str, Any]:
     """Run the sheet at each step, coarsest first: the JSON of `coldspray converge`.
 
-    Lengths in m. Of a level, `error` and `budget` are those of `split`, `order` is that of the
-    error against the level before (None where the error vanishes or changes sign, or that level
-    has less than two steps),
-    `time_step_order` the same for the time-step part alone, and `regime` what governs the error.
-    `limit`, which estimates the depth at the stop velocity, `observed_order` and `gci` come from
-    the finest three depths without knowledge of the exact one; None where undefined, for the reason
-    in `limit_undefined`. Raises ValueError for less than two steps, for steps that do not decrease,
-    and where `run` does.
+    Lengths are in m. For each level, `error` and `budget` are those of `split`, `order` is the
+    `error_order` against the level before, `time_step_order` the same for the time-step part alone,
+    and `regime` names what governs the error. `limit`, an estimate of the depth at the stop
+    velocity, `observed_order` and `gci` come from the three finest depths, without the exact one;
+    where they are None, `limit_undefined` says why. Raises ValueError for fewer than two steps, for
+    steps that do not decrease, and where `run` does.
 
     >>> from replication.cases import BETA_5
     >>> finest = converge(BETA_5, [4e-10, 2e-10, 1e-10])["levels"][-1]
@@ -90,10 +88,10 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     """
     if len(steps) < 2 or any(b >= a for a, b in pairwise(steps)):
         raise ValueError("convergence needs two steps or more, each shorter than the one before")
-    for step in steps:  # one that needs too many rows is refused before the long work
+    for step in steps:  # if one needs too many rows, fail before the long work
         run(replace(impact, step=step), scheme)
     levels: list[Level] = []
-    for step in steps:  # again, as a million rows of each would not fit into memory together
+    for step in steps:  # again, as a million rows for every step would not fit into memory
         sheet = run(replace(impact, step=step), scheme)
         levels.append(_level(sheet, levels[-1] if levels else None))
     order, finest, motion = SCHEMES[scheme].order, levels[-3:], exact_motion(impact)
@@ -136,9 +134,10 @@ def _level(sheet: Sheet, coarse: Level | None) -> Level:
 def error_order(
     coarse: float | None, fine: float | None, steps: int, ratio: float = 2.0
 ) -> float | None:
-    """The order by which an error falls with the step; None where it vanishes or changes sign.
+    """Return the order with which an error falls with the step.
 
-    Or the coarse run has less than two `steps`: one goes to V dt/2, whatever the target is.
+    None if the error vanishes or changes sign, or if the coarse run has fewer than two `steps`: a
+    single step ends at V dt/2, whatever the target is.
 
     >>> error_order(0.04, 0.01, 9)
     2.0
@@ -149,9 +148,9 @@ def error_order(
 
 
 def regime(error: float, budget: Budget, time_step_order: float | None, order: int) -> str:
-    """What governs the error, as `GOVERNED_BY` explains it.
+    """Return what governs the error: a key of `GOVERNED_BY`.
 
-    A part of more than a tenth of it shows in the observed order.
+    A part of more than a tenth of the error shows in the observed order.
     """
     time_step, stop_rule, half_step, rounding = (budget[part] or 0.0 for part in _PARTS)
     if budget["time_step"] is None:
@@ -177,11 +176,11 @@ GOVERNED_BY = {
     "rounding floor": "rounding, with more than a tenth of it",
     "meaningless": "the last velocity exceeds that of the impact in size",
 }
-"""What an error is governed by, and what that means."""
+"""The regimes of an error, and what each means."""
 
 
 def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) -> dict[str, Any]:
-    """The limit of three depths (Richardson), its order and uncertainty, or why there is none."""
+    """Return Richardson's limit of three depths, its order and uncertainty, or why it has none."""
     result = dict.fromkeys(("limit", "limit_undefined", "observed_order", "gci"))
     if len(steps) < 3:
         return result | {"limit_undefined": "needs three levels"}
@@ -195,9 +194,9 @@ def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) 
         why = "the depths oscillate" if shrink < 0 else "the depths do not draw together"
         return result | {"limit_undefined": why}
     order = math.log(shrink) / math.log(again)
-    # An observed order above the scheme's is an accident, and would make the index too small.
+    # An observed order above the scheme's is accidental and would make the index too small.
     cautious = min(max(order, 0.5), nominal)
-    # Roache's factors: for an observed order within a tenth of the scheme's, and for others.
+    # Roache's safety factors: 1.25 if the observed order is the scheme's within a tenth, else 3.
     factor = 1.25 if abs(order - nominal) <= 0.1 * nominal else 3.0
     gci = factor * abs((fine - middle) / fine) / (again**cautious - 1)
     limit = fine + (fine - middle) / (shrink - 1)
@@ -205,15 +204,15 @@ def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) 
 
 
 def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> dict[str, Any]:
-    """A step that gives so many correct digits, as its halvings do, and one 1 % longer that fails.
+    """Find a step that gives this many correct digits, as its halvings do; 1 % more does not.
 
-    Correct means: within half a unit of that digit of the exact depth at rest. Where the last row
-    falls is an accident, so single steps in between may do better or worse. Gives `digits`, `step`,
-    `steps`, `depth`, `error`, and as `fails` the next longer step tried, which does not give them.
-    Raises ValueError where no step does: the stop rule alone is off by more, or too many rows are
-    needed.
+    Correct means within half a unit of the last of these digits of the exact depth at rest. Where
+    the last row falls is accidental, so other steps may do better or worse. Returns `digits`,
+    `step`, `steps`, `depth`, `error`, and as `fails` the next longer step tried, which fails.
+    Raises ValueError if no step succeeds: the error of the stop rule alone is too large, or too
+    many rows are needed.
     """
-    halvings = 3  # must keep the digits, too: the step did not give them by accident
+    halvings = 3  # these must be correct, too, to show that the step is not so by accident
     motion = exact_motion(impact)
     rest = float(motion.final_depth)
     allowed = 0.5 * 10.0 ** (math.floor(math.log10(rest)) + 1 - digits)
@@ -249,7 +248,7 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> d
     }
 
 
-# As the command shows them
+# The text of the command
 
 _WHY = {
     "published": (
@@ -292,7 +291,7 @@ def _table(levels: Sequence[Level]) -> list[str]:
 
 
 def text(result: dict[str, Any]) -> str:
-    """The ladder as a table, its limit, and where every part of the error comes from."""
+    """Return the ladder as a table, its limit, and where each part of the error comes from."""
     limit = result["limit_undefined"] or (
         f"{_um(result['limit'], 8)} um, observed order {result['observed_order']:.2f}, "
         f"grid convergence index {100 * result['gci']:.2g} %"

@@ -1,1 +1,1 @@
-"""The models: functions of plain floats, one case; `arrays` compiles the same ones for many."""
+"""The models: functions of plain floats for one case; `arrays` compiles them for many cases."""

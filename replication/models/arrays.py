@@ -1,8 +1,9 @@
-"""The models for whatever holds numbers: the same functions, compiled by Numba for arrays.
+"""The public models: they take numbers, arrays, Series, and xarray and dask arrays alike.
 
-Inputs broadcast; Series are matched by label, and dask arrays stay lazy. They are checked once a
-batch: a ValueError names the first bad element by its index, or by its label in a Series. Plain
-numbers need neither NumPy nor Numba. All in SI units.
+For arrays Numba compiles the same functions that compute a single case. Inputs broadcast, Series
+are aligned by label, and dask arrays stay lazy. All elements of an input are checked at once: a
+ValueError names the first bad one by its index, or by its label in a Series. Plain numbers need
+neither NumPy nor Numba. Everything is in SI units.
 """
 
 import inspect
@@ -17,11 +18,12 @@ from replication.models.impact import MAY_BE_ZERO, InputError, check, check_rang
 Model = Callable[..., Any]
 
 LEAST, GREATEST = 1e-40, 1e40
-"""Of inputs between these `check_range` refuses nothing: its products have at most six factors."""
+"""`check_range` accepts all inputs in this range, as its products have at most six factors."""
 
-PIECE = 25_000
-"""Elements of a piece of work: two pieces and more are shared out to the cores. A piece takes a
-millisecond, ten times what handing it out takes, and its data fit into a core's cache."""
+PIECE = 125_000
+"""Final depths in a piece of work; two pieces and more are shared out to the cores. A piece takes
+1.4 to 5 ms; starting the threads takes up to 2 ms on a virtual machine, so that less does not pay.
+A million cases still keep eight cores busy."""
 
 _DOC = """
 
@@ -31,13 +33,13 @@ x [m].
 
 Each is a number, an array, a pandas Series, or an xarray or dask array; they broadcast, and the
 result is of their kind. Raises ValueError, naming the first element that is out of range, where the
-model by itself would give NaN; TypeError for what holds no real numbers.
+model by itself would give NaN; TypeError for input that is not real numbers.
 """
-"""What is added to the docstrings of all models for arrays."""
+"""Added to the docstring of each public model."""
 
 
 def _for_anything(model: Model) -> Model:
-    """The model for whatever holds numbers."""
+    """Return the public form of a model: checked, and for numbers, arrays and other containers."""
     signature = inspect.signature(model)
 
     @wraps(model)
@@ -48,14 +50,14 @@ def _for_anything(model: Model) -> Model:
                 return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
-        compute = partial(_computed, model, lambda *cases: _each(ufunc(model), *cases))
+        compute = partial(_computed, model, lambda *cases: _each(model, *cases))
         return _contained(compute, bound.arguments, (float,))
 
     function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
-    # It is not for floats only, as the model's annotations say.
+    # The model's annotations say float, but this function takes more.
     of_anything = [p.replace(annotation=p.empty) for p in signature.parameters.values()]
     function.__signature__ = inspect.Signature(of_anything)  # type: ignore[attr-defined]
-    function.__module__ = __name__  # where pickle finds it
+    function.__module__ = __name__  # where pickle looks for it
     return function
 
 
@@ -73,9 +75,9 @@ def history(
 ) -> Any:  # fmt: skip
     """Depth [m] and velocity [m/s] of Eqs. 12-13 at times [s] after touch.
 
-    Inputs are those of `final_depth`; time broadcasts against them. Errors are below 1e-14
-    of the final depth and of the impact velocity; from the stop time on the results are the final
-    depth and 0. Raises ValueError naming the first element that is out of range.
+    The other inputs are those of `final_depth`; times broadcast against them. Errors are below
+    1e-14 of the final depth and of the impact velocity. From the stop time on, the results are the
+    final depth and 0. Raises ValueError naming the first element that is out of range.
 
     >>> depth, speed = history([0.0, 1e-8, 1.0], 500.0, 11e-6, 8900.0, 7850.0, 3.5e9)
     >>> [f"{x * 1e6:.4f}" for x in depth], [f"{v:.2f}" for v in speed]
@@ -83,42 +85,52 @@ def history(
     """
     inputs = locals()
     case = velocity, radius, particle_density, target_density, resistance
-    line = type(time).__name__ == "ndarray" and time.ndim == 1 and time.dtype.char == "d"
-    if line and _are_plain(case):
-        results = ufunc(motion.history)(time, *case)
-        if results[0].dot(results[0]) < math.inf:  # none is NaN
-            return results
+    if _is_line(time) and _are_plain(case):
+        depth, speed = time.copy(), time.copy()
+        try:
+            compiled(motion.history, True)(time, *case, depth, speed)
+        except ValueError:  # a bad time, which is named below
+            pass
+        else:
+            return depth, speed
     compute = partial(_computed, partial(_filled, motion.history), _histories)
     return _contained(compute, inputs, (float, float))
 
 
 def _are_plain(values: Iterable[Any]) -> bool:
-    """Whether these are floats that need no other check: the fast path for a single case."""
+    """Return whether all values are floats that need no further check (for the fast paths)."""
     for value in values:  # noqa: SIM110 - a third of the time that `all` takes
         if type(value) is not float or not LEAST <= value <= GREATEST:
             return False
     return True
 
 
+def _is_line(time: Any) -> bool:
+    """Return whether this is a one-dimensional array that compiled code can take unchanged."""
+    if type(time).__name__ != "ndarray" or time.ndim != 1:
+        return False
+    return bool(time.dtype.char == "d" and time.dtype.isnative and time.flags.carray)
+
+
 def _filled(model: Model, first: float, *values: Any) -> tuple[float, Any]:
-    """Depth and the other result of a model that fills them in; of a history, at one time."""
+    """Return both results, for one case, of a model that fills them in; a history's at one time."""
     depth, second = [0.0], [0]
     model([first] if model is motion.history else first, *values, depth, second)
     return depth[0], second[0]
 
 
 def _histories(*values: Any) -> Any:
-    """Histories; times along an axis in which no case changes share that case's Taylor series."""
+    """Return histories; an axis along which only the time varies shares one set of series."""
     import numpy as np
 
     given = list(map(np.asarray, values))
     rank = max(array.ndim for array in given)
-    # All have the same axes then, and a last one in which nothing changes.
+    # Give all of them the same axes, and a last one of length 1.
     time, *cases = (x.reshape((1,) * (rank - x.ndim) + x.shape + (1,)) for x in given)
     shared = [k for k in range(rank + 1) if all(case.shape[k] == 1 for case in cases)]
     axis = max(shared, key=time.shape.__getitem__)
     time, *cases = (array.swapaxes(axis, -1) for array in (time, *cases))
-    results = _each(ufunc(motion.history), time, *(case[..., 0] for case in cases))
+    results = _each(motion.history, time, *(case[..., 0] for case in cases))
     return tuple(result.swapaxes(axis, -1)[..., 0] for result in results)
 
 
@@ -128,9 +140,9 @@ def run_many(
 ) -> Any:  # fmt: skip
     """Final depth X [m] and number of steps of the report's sheet, for cases that broadcast.
 
-    Inputs are those of `final_depth`, and step [s], stop_velocity [m/s], scheme as for `run`. The
-    same doubles as `run`, case by case. Raises ValueError naming the first element that
-    is out of range or needs more than `sheet.MAX_STEPS` rows.
+    Inputs are those of `final_depth`, step [s] and stop_velocity [m/s]; `scheme` is as for `run`.
+    Each result is the same double as that of `run`. Raises ValueError naming the first element
+    that is out of range or needs more than `sheet.MAX_STEPS` rows.
 
     >>> depth, steps = run_many(500.0, 11e-6, 8900.0, 7850.0, [2.1e9, 3.5e9])
     >>> [f"{x * 1e6:.2f}" for x in depth], steps.tolist()
@@ -142,16 +154,16 @@ def run_many(
     compute = partial(
         _computed,
         lambda *case: _filled(sheet.last_row, *case, centered),
-        lambda *cases: _each(ufunc(sheet.last_row), *cases, centered),
+        lambda *cases: _each(sheet.last_row, *cases, centered),
     )
     return _contained(compute, inputs, (float, int))
 
 
-# What is refused
+# Checks
 
 
 def _computed(plain: Model, many: Model, **inputs: Any) -> Any:
-    """The checked results of the plain model, or for arrays of the compiled one."""
+    """Check the inputs, compute by the plain model or for arrays by `many`, check the results."""
     numbers: dict[str, Any] = {
         name: x if type(x) is float else _real(name, x) for name, x in inputs.items()
     }
@@ -174,6 +186,7 @@ def _computed(plain: Model, many: Model, **inputs: Any) -> Any:
 
 
 def _common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
+    """Return the shape to which the arrays broadcast; raise ValueError if they do not."""
     import numpy as np
 
     shapes = {name: np.shape(array) for name, array in arrays.items()}
@@ -185,6 +198,7 @@ def _common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
 
 
 def _real(name: str, value: Any) -> Any:
+    """Return a value as a float or an array of doubles; raise TypeError if it cannot be one."""
     if isinstance(value, float | int) and abs(value) <= GREATEST:
         return float(value)
     import numpy as np
@@ -204,7 +218,7 @@ def _real(name: str, value: Any) -> Any:
 
 
 def _refuse(numbers: Mapping[str, Any], result: Any = 0.0) -> None:
-    """Raise for the first element, if any, that a check refuses, or that has no finite result."""
+    """Raise InputError for the first element that fails a check or has no finite result, if any."""
     import numpy as np
 
     arrays = np.broadcast_arrays(result, *numbers.values())
@@ -220,7 +234,7 @@ def _refuse(numbers: Mapping[str, Any], result: Any = 0.0) -> None:
                 raise _without_result(case, value)
         except InputError as error:
             name, problem = error.name, error.problem
-            if name in numbers:  # its place in that input's own array
+            if name in numbers:  # give the index in that input's own array
                 shape = np.shape(numbers[name])
                 places = zip(index[len(index) - len(shape) :], shape, strict=True)
                 index = tuple(i if size > 1 else 0 for i, size in places)
@@ -230,6 +244,7 @@ def _refuse(numbers: Mapping[str, Any], result: Any = 0.0) -> None:
 
 
 def _without_result(case: Mapping[str, float], result: float) -> InputError:
+    """Return the error for a case within range that has no finite result."""
     if "step" in case:
         return sheet.refusal(result, case["step"], case["stop_velocity"])
     for name in ("at_velocity", "at_depth", "stop_velocity"):
@@ -239,24 +254,27 @@ def _without_result(case: Mapping[str, float], result: float) -> InputError:
     return InputError("the result", "is beyond what a double can hold")
 
 
-# How it is computed
+# Compiling and computing
 
 
-def _each(function: Any, *values: Any) -> Any:
-    """The results of a ufunc for values that broadcast; histories have an axis of times besides.
+def _each(model: Model, *values: Any) -> Any:
+    """Return the compiled model's results for values that broadcast; on all cores if they are many.
 
-    Python's threads share out many cases to all cores, as compiled code releases Python's lock.
-    Numba's own may not be started from two threads at once, and do not survive a fork. Only the
-    main thread starts any: a caller with threads, such as dask, has shared out its work already.
+    The times of histories are a last axis of their own. The work is shared among Python threads,
+    which run at the same time because compiled code releases Python's lock. Numba's own threads
+    cannot be started from two threads at once and do not survive a fork. Only the main thread
+    shares out work: a caller with threads of its own, such as dask, has done so already.
     """
     import threading
 
     import numpy as np
 
+    function = ufunc(model)
     first, *others = map(np.shape, values)
-    times = first[-1:] if "n" in (function.signature or "") else ()
+    times = first[-1:] if model is motion.history else ()
     shape = np.broadcast_shapes(first[: len(first) - len(times)], *others)
-    weight = 20 if function.signature else 1  # sheets and histories, in final depths
+    # A time, a sheet or a history takes as long as some hundred depths.
+    weight = 1 if model.__module__ == depth.__name__ else 100
     pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
     if pieces < 2 or threading.current_thread() is not threading.main_thread():
         return function(*values)
@@ -274,15 +292,21 @@ def _each(function: Any, *values: Any) -> Any:
 
     cut = [np.array_split(array, pieces, axis) for array in (*views, *results)]
     with ThreadPoolExecutor(numba.config.NUMBA_NUM_THREADS) as pool:
-        list(pool.map(work, *cut))  # which raises what a piece did
+        list(pool.map(work, *cut))  # raises the error of a piece, if any
     return tuple(results) if len(results) > 1 else results[0]
 
 
-@cache
 def ufunc(model: Model) -> Any:
-    """A model as a NumPy ufunc: its own code, compiled; without a check of its inputs.
+    """Return a model compiled as a NumPy ufunc, which does not check its inputs."""
+    return compiled(model).ufunc
 
-    Compiled once and kept on disk; where no folder can be written to, compiled in every process.
+
+@cache
+def compiled(model: Model, alone: bool = False) -> Any:
+    """Compile a model as a ufunc, or `motion.history` for single cases if it is to be `alone`.
+
+    Alone it is a microsecond faster to call. The compiled code is stored on disk, if there is a
+    folder that can be written to.
     """
     import hashlib
     from pathlib import Path
@@ -290,44 +314,45 @@ def ufunc(model: Model) -> Any:
 
     import numba
     from filelock import FileLock
-    from numba import b1, f8, i8
+    from numba import b1, f8, i8, void
 
     if numba.config.DISABLE_JIT:
         raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
     _make_known()
+    compilers = {
+        motion.history: partial(
+            numba.guvectorize,
+            [(f8[:], *[f8] * 5, f8[:], f8[:])],
+            "(n),(),(),(),(),()->(n),(n)",
+        ),
+        sheet.last_row: partial(
+            numba.guvectorize,
+            [(*[f8] * 7, b1, f8[:], i8[:])],
+            "(),(),(),(),(),(),(),()->(),()",
+        ),
+    }
+    numbers = [f8] * len(inspect.signature(model).parameters)
+    compiler = compilers.get(model, partial(numba.vectorize, [f8(*numbers)]))
+    if alone:
+        types = [void(f8[::1], *[f8] * 5, f8[::1], f8[::1])]
+        compiler = partial(numba.njit, types, nogil=True)
     root = FunctionType(model.__code__, model.__globals__, model.__name__)
-    # Numba checks only whether this file has changed; the hash in the name covers what it calls.
+    # Numba looks only for changes to the model's own file. The hash covers all that it calls.
     sources = sorted(Path(__file__).parent.glob("*.py"))
     digest = hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
-    root.__qualname__ = f"{model.__name__}_{digest[:16]}"
-    gufuncs: dict[Model, tuple[list[Any], str]] = {
-        motion.history: ([f8[:], *[f8] * 5, f8[:], f8[:]], "(n),(),(),(),(),()->(n),(n)"),
-        sheet.last_row: ([*[f8] * 7, b1, f8[:], i8[:]], "(),(),(),(),(),(),(),()->(),()"),
-    }
-    if model in gufuncs:
-        types, shapes = gufuncs[model]
-        compiler = partial(numba.guvectorize, [tuple(types)], shapes)
-    else:
-        types = [f8] * len(inspect.signature(model).parameters)
-        compiler = partial(numba.vectorize, [f8(*types)])
+    root.__qualname__ = f"{model.__name__}_{compiler.func.__name__}_{digest[:16]}"
     try:
         folder = numba.njit(cache=True)(root).stats.cache_path
-        # Two processes that compile at once would store files that do not belong together.
+        # Without a lock, two processes compiling at once could store files that do not match.
         with FileLock(Path(folder) / "coldspray.lock"):
-            compiled = compiler(cache=True)(root)
+            return compiler(cache=True)(root)
     except (RuntimeError, OSError):
-        compiled = compiler(cache=False)(root)
-    _KEPT.append(compiled)
-    return compiled.ufunc
-
-
-_KEPT: list[Any] = []
-"""What Numba has compiled: it owns the code of its ufuncs, so it must live as long as they do."""
+        return compiler(cache=False)(root)
 
 
 @cache
 def _make_known() -> None:
-    """Let Numba compile what the models call, with arrays in the place of their lists."""
+    """Let Numba compile the functions that models call, with arrays in place of lists."""
     import numpy as np
     from numba.extending import overload, register_jitable
 
@@ -335,14 +360,14 @@ def _make_known() -> None:
         for function in vars(module).values():
             if inspect.isfunction(function) and function is not motion.zeros:
                 register_jitable(function)
-    overload(motion.zeros)(lambda count: lambda count: np.zeros(count))  # noqa: ARG005
+    overload(motion.zeros)(lambda rows, columns: lambda rows, columns: np.zeros((rows, columns)))  # noqa: ARG005
 
 
-# Containers of other libraries, recognized by their types, so that no unused library is imported
+# Containers of other libraries, recognized by type names so that no unused library is imported
 
 
 def _contained(compute: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> Any:
-    """The results of `compute`, of these types, in the containers of the inputs."""
+    """Return the results of `compute`, of these types, in containers like those of the inputs."""
     library = _library(frozenset(map(type, inputs.values())))
     if not library:
         return compute(**inputs)
@@ -357,13 +382,13 @@ def _contained(compute: Model, inputs: Mapping[str, Any], types: Sequence[type])
 
 @cache
 def _library(kinds: frozenset[type]) -> str:
-    """The outermost library of these types: its containers may hold those of the later ones."""
+    """Return the library among these types whose containers may hold those of the others, or ""."""
     libraries = {base.__module__.partition(".")[0] for kind in kinds for base in kind.__mro__}
     return next((library for library in ("pint", *_CONTAINED) if library in libraries), "")
 
 
 def _of(library: str, inputs: Mapping[str, Any]) -> list[str]:
-    """The inputs whose type is a library's."""
+    """Return the names of the inputs whose type is from this library."""
     return [name for name, x in inputs.items() if _library(frozenset({type(x)})) == library]
 
 
@@ -375,11 +400,11 @@ def _xarray(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> 
     for name, value in inputs.items():
         if isinstance(value, xarray.Dataset):
             raise TypeError(f"{name} is a Dataset: give its variables, each a DataArray")
-    # The result has neither the units nor the name of an input.
+    # The result must not take over the units or the name of an input.
     options: Any = {"output_core_dims": [[]] * len(types), "dask": "allowed", "keep_attrs": False}
     results = xarray.apply_ufunc(within, *inputs.values(), **options)
 
-    def unnamed(result: Any) -> Any:  # a Variable has no name
+    def unnamed(result: Any) -> Any:  # only a DataArray has a name
         return result if isinstance(result, xarray.Variable) else result.rename(None)
 
     return unnamed(results) if len(types) == 1 else tuple(map(unnamed, results))
@@ -389,8 +414,8 @@ def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> An
     import dask.array
     import numpy as np
 
-    da: Any = dask.array  # it is partly typed
-    labelled = _of("pandas", inputs)  # by labels that a dask array has not
+    da: Any = dask.array  # its type hints are incomplete
+    labelled = _of("pandas", inputs)  # dask arrays have no labels to align them by
     arrays = [da.asarray(np.asarray(x) if name in labelled else x) for name, x in inputs.items()]
     unknown = [name for name, x in zip(inputs, arrays, strict=True) if math.isnan(sum(x.shape))]
     if unknown and sum(array.ndim > 0 for array in arrays) > 1:
@@ -399,7 +424,7 @@ def _dask(within: Model, inputs: Mapping[str, Any], types: Sequence[type]) -> An
         )
     if not unknown:
         _common_shape(dict(zip(inputs, arrays, strict=True)))
-    # Axes are counted from the last, as they broadcast.
+    # Number the axes from the last one, as in broadcasting.
     pairs = [item for array in arrays for item in (array, range(array.ndim)[::-1])]
     _, arrays = da.core.unify_chunks(*pairs, warn=False)
     shapes = f"{','.join(['()'] * len(arrays))}->{','.join(['()'] * len(types))}"

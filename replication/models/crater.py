@@ -35,8 +35,8 @@ def depth_from_volume_ratio(ratio: float) -> float:
 
     The root of y^2 (3 - y) / 4 = ratio in [0, 1]: y = 2t (t + sqrt 3) / (1 + t^2) with t = tan(h)
     and sin(3h)^2 = ratio, a form without cancellation for shallow craters; one Newton step on y/2
-    removes most of the rounding error. NaN for ratios outside 0 to 1/2, which no cap up to half
-    the sphere has.
+    removes most of the rounding error. NaN for a ratio outside 0 to 1/2, the range of caps up to
+    half the sphere.
 
     >>> f"{depth_from_volume_ratio(0.06):.3f}"
     '0.298'
@@ -53,7 +53,7 @@ SQRT_3 = math.sqrt(3)
 
 
 def crater_depth(ratio: float) -> float:
-    """Normalized depth X/R [1] of a crater of CV/PV [1] that goes on as a cylinder beyond X = R.
+    """Normalized depth X/R [1] of a crater of CV/PV [1] that continues as a cylinder beyond X = R.
 
     >>> crater_depth(0.5), crater_depth(2.0)
     (1.0, 3.0)

@@ -1,4 +1,4 @@
-"""Depth and velocity without time: Eq. 13 separated and integrated once.
+"""Depth against velocity, without time: Eq. 13 separated and integrated once.
 
 M v dv/dx = -(rho_t v^2 / 2 + R_t) A(x), so 2 b W(y) = ln((V^2 + v_r^2) / (v^2 + v_r^2))
 with y = x/R, b = 3 rho_t / (8 rho_p), v_r^2 = 2 R_t / rho_t. W(y) = y^2 - y^3/3 up to y = 1, and
@@ -23,7 +23,7 @@ def normalized_depth(
     '0.6977'
     """
     V, rho_p, rho_t, R_t = velocity, particle_density, target_density, resistance
-    # Up to y = 1 three quarters of W are the crater's volume over the particle's.
+    # Up to y = 1 the crater's volume over the particle's is three quarters of W.
     return crater_depth(rho_p / rho_t * math.log1p(rho_t * V * V / (2 * R_t)))
 
 
@@ -42,12 +42,12 @@ def final_depth(
 def elasticities(
     velocity: float, particle_density: float, target_density: float, resistance: float
 ) -> dict[str, float]:
-    """d ln X / d ln input [1], by input: the percent of depth at rest for one percent of the input.
+    """Return d ln X / d ln input [1] for each input: the percent of X for one percent of the input.
 
     With c = (4 rho_p / 3 rho_t) ln(1 + p), p = rho_t V^2 / 2 R_t, and W(y) = c as for
     `normalized_depth`: d ln y = s d ln c, where s = c / (y^2 (2 - y)), and c / y beyond y = 1; and
     d ln ln(1 + p) = q d ln p, where q = p / ((1 + p) ln(1 + p)). V [m/s], rho_p and rho_t [kg/m^3],
-    R_t [Pa]; X is in proportion to the radius.
+    R_t [Pa]; X is proportional to the radius.
 
     >>> by_input = elasticities(500.0, 8900.0, 7850.0, 3.5e9)
     >>> f"{by_input['velocity']:.3f}", f"{by_input['resistance']:.3f}"
@@ -93,8 +93,8 @@ def velocity_at_depth(
     v^2 = (V^2 + v_r^2) exp(-2 b W(x/R)) - v_r^2, from Eqs. 12-13; W as for `normalized_depth`,
     b = 3 rho_t / (8 rho_p), v_r^2 = 2 R_t / rho_t.
 
-    Close to rest the velocity varies as the square root of the depth left, so that fewer digits of
-    the result are right.
+    Close to rest the velocity varies as the square root of the remaining depth, so that fewer
+    digits of the result are correct.
 
     >>> f"{velocity_at_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9):.3f}"
     '353.533'
@@ -104,7 +104,7 @@ def velocity_at_depth(
     left = (radius * final - at_depth) / radius
     if left < 0:
         return math.nan
-    # The work from y - left to rest, beyond the radius and within, in a form without cancellation.
+    # The work from y - left to rest, beyond the radius and within it, without cancellation.
     beyond = min(left, max(final - 1, 0.0))
     left, y = left - beyond, min(final, 1.0)
     work = beyond + left * (y * (2 - y) - left * (1 - y) - left * left / 3)

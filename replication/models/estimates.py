@@ -1,4 +1,4 @@
-"""What the report estimates beside the penetration itself.
+"""The report's estimates beside the penetration model.
 
 Particle velocity (Eq. 1), strain rate, target resistance and its factor beta by two routes (Eqs.
 7-11), centerline stress, and the Frank-Zook depth of a noneroding penetrator (Eqs. 14-17).
@@ -91,10 +91,10 @@ def frank_zook_derived(
     length_ratio: float, particle_density: float, target_density: float, k_1: float, k_t: float,
     resistance: float, velocity: float,
 ) -> float:  # fmt: skip
-    """X/R [1] as it follows from Eqs. 14 and 15: twice the right side of Eq. 16, as R = D/2.
+    """X/R [1] derived from Eqs. 14 and 15: twice the right side of Eq. 16, as R = D/2.
 
     -(L rho_p + k_1 rho_t D) dv/dt = k_t rho_t v^2 + R_t, integrated from V to rest, gives the right
-    side of Eq. 16 for the depth in *diameters*. Inputs as of `frank_zook_as_printed`.
+    side of Eq. 16 for the depth in *diameters*. The inputs are those of `frank_zook_as_printed`.
 
     >>> f"{frank_zook_derived(2 / 3, 8900.0, 7850.0, 0.557, 1.046, 9.13e9, 500.0):.3f}"
     '0.255'
@@ -104,9 +104,9 @@ def frank_zook_derived(
 
 
 def sphere_length_ratio(length_ratio: float = 1.0) -> float:
-    """L/D [1] of the cylinder of the sphere's mass and diameter (section 3): 2/3.
+    """L/D [1] of the cylinder with the sphere's mass and diameter (section 3): 2/3.
 
-    From (pi / 6) D^3 = (pi / 4) D^2 L; `length_ratio` L/D [1] of the cylinder around it is 1.
+    From (pi / 6) D^3 = (pi / 4) D^2 L. `length_ratio` is L/D of the cylinder around the sphere, 1.
 
     >>> sphere_length_ratio() == 2 / 3
     True

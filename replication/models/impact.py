@@ -1,4 +1,4 @@
-"""`Impact`: the inputs of one particle hitting one target, refused where they make no sense."""
+"""`Impact`: the checked inputs of one particle hitting one target."""
 
 import math
 from collections.abc import Mapping
@@ -12,9 +12,9 @@ MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
 
 
 class InputError(ValueError):
-    """An input, or a value computed from inputs, that is refused: its name and what is wrong.
+    """An invalid input, or invalid value computed from inputs: its name and what is wrong with it.
 
-    Of an array also the element's index, of a pandas Series its label.
+    For an array it also has the element's index, for a pandas Series its label.
 
     >>> print(InputError("radius", "is -1.0: it must not be", (0, 3)))
     radius[0, 3] is -1.0: it must not be
@@ -31,13 +31,13 @@ class InputError(ValueError):
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Impact:
-    """One case of section 3 and the appendix: what a run of the spreadsheet depends on.
+    """One case of section 3 and the appendix: all inputs of the spreadsheet.
 
     velocity V [m/s], radius R [m], particle_density rho_p [kg/m^3], target_density rho_t [kg/m^3],
     step dt [s], stop_velocity [m/s]; the target resistance R_t [Pa] either as `resistance` or as
-    the product of `beta` [1] and `flow_stress` Y_t [Pa] (Eq. 7). Raises ValueError naming what is
-    not finite, not positive (the stop velocity may be zero), missing, given twice, or leaves the
-    range of doubles.
+    the product of `beta` [1] and `flow_stress` Y_t [Pa] (Eq. 7). Raises ValueError naming an input
+    that is not finite, not positive (the stop velocity may be zero), missing, given twice, or
+    outside of the range of `check_range`.
 
     >>> Impact(velocity=500, radius=11e-6, particle_density=8900, target_density=7850,
     ...        beta=5, flow_stress=700e6).target_resistance
@@ -85,7 +85,7 @@ class Impact:
 
     @property
     def motion(self) -> dict[str, float]:
-        """What Eq. 13 depends on: the arguments of `depth.final_depth`, in order."""
+        """The inputs of Eq. 13: the arguments of `depth.final_depth`, in order."""
         names = ("velocity", "radius", "particle_density", "target_density")
         stated = {name: getattr(self, name) for name in names}
         return stated | {"resistance": self.target_resistance}
@@ -97,7 +97,7 @@ class Impact:
 
     @property
     def mass(self) -> float:
-        """M = (4/3) pi R^3 rho_p [kg], multiplied in the order that the workbook's cell uses."""
+        """M = (4/3) pi R^3 rho_p [kg], multiplied in the order of the workbook's formula."""
         return particle_mass(self.radius, self.particle_density)
 
 
@@ -111,7 +111,7 @@ def particle_mass(radius: float, particle_density: float) -> float:
 
 
 def check(inputs: Mapping[str, float]) -> None:
-    """Raise InputError for the first input that is not finite, or not positive as it must be.
+    """Raise InputError for the first input that is not finite, or not positive where it must be.
 
     >>> check({"velocity": 500.0, "radius": -1.0})
     Traceback (most recent call last):
@@ -133,13 +133,13 @@ def check_range(
 ) -> None:  # fmt: skip
     """Raise InputError where squares, products or ratios of the inputs (SI) leave 1e-250 to 1e250.
 
-    Within that range no formula of the models overflows, underflows or divides by zero. Other
-    inputs, such as a time, are part of none of these.
+    Within that range no formula of the models overflows, underflows or divides by zero. Further
+    inputs, such as a time, are accepted and ignored, as no such product contains them.
     """
     mass = particle_mass(radius, particle_density)
     if not 0 < mass < math.inf:
         raise InputError("particle mass", f"is {mass!r}: it must be a number above zero")
-    _carried("target resistance", resistance)
+    _carried("target resistance", resistance)  # beta times flow stress may have underflowed to 0
     _carried("step", step)
     _carried("radius squared", radius * radius)
     _carried("velocity squared", velocity * velocity)
@@ -155,6 +155,6 @@ def check_range(
 
 
 def _carried(name: str, value: float) -> None:
-    """Raise InputError unless doubles carry the value safely, so that it may be divided by."""
+    """Raise InputError unless the value is far enough from the ends of the range of doubles."""
     if not 1e-250 <= value <= 1e250:
         raise InputError(name, f"is {value!r}: doubles carry 1e-250 to 1e250 safely")

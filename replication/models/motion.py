@@ -1,14 +1,16 @@
-"""Depth and velocity against time: Eq. 13 by Taylor series.
+"""Depth and velocity against time: Eq. 13 by Taylor series, and beyond y = 1 in closed form.
 
-With y = x/R and u = v/V, time in units of R/V, it is polynomial up to y = 1: y' = u and
-u' = -(b u^2 + c) (2y - y^2), b = 3 rho_t / (8 rho_p), c = 3 R_t / (4 rho_p V^2); beyond, the last
-factor is 1. So the coefficients of the series follow from each other by products of series.
+With y = x/R and u = v/V, and time in units of R/V, Eq. 13 is polynomial up to y = 1: y' = u and
+u' = -(b u^2 + c) (2y - y^2), where b = 3 rho_t / (8 rho_p) and c = 3 R_t / (4 rho_p V^2). So each
+coefficient of the series follows from the previous ones by products of series. Beyond y = 1 the
+last factor is 1, and u is a tangent.
 
-Order and step are those of Jorba and Zou (2005) for double precision: the radius of convergence r
-is estimated from the last two coefficients of the velocity, and a step is r / e^2 long. Term k is
-then about e^(-2k) of the first ones, so that order 20 leaves out e^(-42) / (1 - e^(-2)) = 7e-19 of
-the velocity in a step, far less than rounding. The impact ends at the depth and velocity of the
-energy integral; the time of a known state is found by Newton's method along the series.
+The order and the steps are those of Jorba and Zou (2005) for double precision: the radius of
+convergence r is estimated from the last two coefficients of the velocity, and a step is r / e^2
+long. Term k is then about e^(-2k) of the first ones, so that order 20 leaves out
+e^(-42) / (1 - e^(-2)) = 7e-19 of the velocity in a step, far less than rounding. The series end at
+the depth and velocity that the energy integral gives for rest, or for y = 1; the time of a known
+state is found by Newton's method along the series.
 """
 
 import math
@@ -20,43 +22,60 @@ from replication.models.depth import depth_at_velocity, normalized_depth, veloci
 ORDER = 20
 E_2 = math.exp(-2)
 
-Series = Any  # a list of floats or, where it is compiled, an array
+LANES = 16
+"""Number of times that are evaluated together, so that the compiler can use vector instructions."""
+
+Array = Any  # a list of floats, or a list of such lists; in compiled code an array
 
 
 def history(
-    time: Series, velocity: float, radius: float, particle_density: float, target_density: float,
-    resistance: float, depth: Series, speed: Series,
+    time: Array, velocity: float, radius: float, particle_density: float, target_density: float,
+    resistance: float, depth: Array, speed: Array,
 ) -> None:  # fmt: skip
     """Fill in `depth` [m] and `speed` [m/s] at times [s] after touch, in any order.
 
-    What they are, and how exact, says `arrays.history`. NaN at negative and at not finite times.
+    `arrays.history` documents the results and their errors. Raises ValueError for a time that is
+    negative or not finite.
     """
-    V, R, rho_p, rho_t, R_t = velocity, radius, particle_density, target_density, resistance
-    final = normalized_depth(V, rho_p, rho_t, R_t)
-    y, w = zeros(ORDER + 1), zeros(ORDER + 1)
-    s, at, dy = zeros(len(time)), zeros(len(time)), zeros(len(time))
-    rising = True
-    for k in range(1, len(time)):
-        rising = rising and time[k - 1] <= time[k]
-    k, end = 0, 0.0
-    for start, unit, length in _steps(y, w, final, V, rho_p, rho_t, R_t):
-        begin, end = start * R / V, (start + length * unit) * R / V
+    V, R = velocity, radius
+    rising = _are_rising(time)
+    b, c, final, at_radius = _equation(V, particle_density, target_density, resistance)
+    terms, scratch = zeros(4, ORDER + 1), zeros(3, LANES)
+    k, end, reached = 0, 0.0, 0.0
+    for start, unit, length in _steps(terms, b, c, min(final, 1.0), at_radius):
+        reached = start + length * unit
+        begin, end = start * R / V, reached * R / V
         k = k if rising else 0
         while k < len(time) and not (rising and time[k] >= end):
             first = k
             while k < len(time) and begin <= time[k] < end:
-                s[k - first] = (time[k] * V / R - start) / unit
                 k += 1
-            _states(y, w, s, at, dy, k - first)
-            for i in range(k - first):
-                depth[first + i] = R * min(at[i], final)
-                speed[first + i] = V * max(dy[i] / unit, 0.0)
+            for batch in range(first, k, LANES):
+                count = min(LANES, k - batch)
+                for i in range(count):
+                    scratch[0][i] = (time[batch + i] * V / R - start) / unit
+                _states(terms[0], terms[1], scratch[0], scratch[1], scratch[2], LANES)
+                for i in range(count):
+                    depth[batch + i], speed[batch + i] = scratch[1][i], scratch[2][i] / unit
             k = max(k, first + 1)
+    rest = (reached + _time_beyond(0.0, b, c, at_radius)) * R / V
+    for k in range(len(time)):
+        y, u = depth[k], speed[k]
+        if time[k] >= rest:
+            y, u = final, 0.0
+        elif time[k] >= end:
+            y, u = _beyond(time[k] * V / R - reached, b, c, at_radius)
+        depth[k], speed[k] = R * min(y, final), V * max(u, 0.0)
+
+
+def _are_rising(time: Array) -> bool:
+    """Return whether no time is earlier than the one before it. Raises as `history` does."""
+    rising, before = True, 0.0
     for k in range(len(time)):
         if not 0 <= time[k] < math.inf:
-            depth[k], speed[k] = math.nan, math.nan
-        elif time[k] >= end:
-            depth[k], speed[k] = R * final, 0.0
+            raise ValueError("a time must be finite, and zero or more")
+        rising, before = rising and before <= time[k], time[k]
+    return rising
 
 
 def stop_time(
@@ -78,8 +97,8 @@ def time_to_depth(
 ) -> float:  # fmt: skip
     """Time [s] from touch to a depth [m], at most the final one.
 
-    Close to rest the time left varies as the square root of the depth left, so that fewer digits
-    of the result are right.
+    Close to rest the remaining time varies as the square root of the remaining depth, so that
+    fewer digits of the result are correct.
 
     >>> f"{time_to_depth(5e-6, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9) * 1e9:.6f}"
     '11.192312'
@@ -91,86 +110,114 @@ def time_to_depth(
 def _time(
     depth: float, speed: float, V: float, R: float, rho_p: float, rho_t: float, R_t: float
 ) -> float:
-    """Time [s] at which the motion has this depth and speed; NaN if one of them is."""
+    """Time [s] at which the motion has this depth [m] and speed [m/s]; NaN if either is NaN."""
     if math.isnan(depth + speed):
         return math.nan
-    time, final = 0.0, normalized_depth(V, rho_p, rho_t, R_t)
     if depth == 0:
-        return time
-    y, w = zeros(ORDER + 1), zeros(ORDER + 1)
-    for start, unit, length in _steps(y, w, final, V, rho_p, rho_t, R_t):
-        aim_y, aim_w = depth / R, speed / V * unit
-        at, dy, _ = _state(y, w, length)
-        if speed > 0 and (at >= aim_y or dy <= aim_w):
-            return (start + _locate(y, w, aim_y, aim_w, length) * unit) * R / V
-        time = (start + length * unit) * R / V
-    return time
+        return 0.0
+    b, c, final, at_radius = _equation(V, rho_p, rho_t, R_t)
+    reached, y, u = 0.0, depth / R, speed / V
+    terms = zeros(4, ORDER + 1)
+    for start, unit, length in _steps(terms, b, c, min(final, 1.0), at_radius):
+        at, dy = _state(terms, length)
+        if u > 0 and (at >= y or dy <= u * unit):
+            return (start + _locate(terms, y, u * unit, b, c * unit * unit, length) * unit) * R / V
+        reached = start + length * unit
+    return (reached + _time_beyond(u, b, c, at_radius)) * R / V
+
+
+def _equation(
+    V: float, rho_p: float, rho_t: float, R_t: float
+) -> tuple[float, float, float, float]:
+    """Return b and c, y at rest, and u at y = 1 (0 if the motion does not get beyond it)."""
+    b = 0.375 * rho_t / rho_p
+    c = b / (rho_t * V * V / (2 * R_t))
+    final = normalized_depth(V, rho_p, rho_t, R_t)
+    at_radius = math.sqrt(c / b * math.expm1(2 * b * (final - 1))) if final > 1 else 0.0
+    return b, c, final, at_radius
+
+
+# Beyond y = 1, where u = k tan(constant - w t) with k^2 = c/b and w^2 = b c
+
+
+def _beyond(time: float, b: float, c: float, at_radius: float) -> tuple[float, float]:
+    """Return y and u at a time after the passage through y = 1, in a form without cancellation."""
+    k, half = math.sqrt(c / b), math.sqrt(b * c) * time / 2
+    sine, cosine = math.sin(half), math.cos(half)
+    growth = 2 * sine * (at_radius / k * cosine - sine)
+    u = (at_radius * (1 - 2 * sine * sine) - 2 * k * sine * cosine) / (1 + growth)
+    return 1 + math.log1p(growth) / b, u
+
+
+def _time_beyond(u: float, b: float, c: float, at_radius: float) -> float:
+    """Return the time from y = 1 until the velocity is u; 0 if the motion ends before."""
+    k = math.sqrt(c / b)
+    return math.atan2(k * (at_radius - u), k * k + at_radius * u) / math.sqrt(b * c)
+
+
+# Up to y = 1. The rows of `terms` are the coefficients of y, its derivative w, b w^2 + c, and
+# 2y - y^2. Times s along a series are counted from the start of its step, in the step's unit
 
 
 def _steps(
-    y: Series, w: Series, final: float, V: float, rho_p: float, rho_t: float, R_t: float
+    terms: Array, b: float, c: float, end_y: float, end_u: float
 ) -> Iterator[tuple[float, float, float]]:
-    """The Taylor steps from touch to rest: start, unit of time, and length in this unit.
+    """Fill in `terms` for each step from touch to y = end_y, u = end_u.
 
-    `y` is filled with the series of the depth in the time since the start, in this unit, and `w`
-    with that of its derivative dy.
+    Yields the step's start, the unit of time of its series, and its length in that unit.
     """
-    b = 0.375 * rho_t / rho_p
-    c = b / (rho_t * V * V / (2 * R_t))
-    at_radius = math.sqrt(c / b * math.expm1(2 * b * (final - 1))) if final > 1 else 0.0
-    area, stress = zeros(ORDER + 1), zeros(ORDER + 1)
     start, unit = 0.0, 1 / math.sqrt(1 + b + c)
-    y[0], w[0] = 0.0, unit
-    beyond, rest = False, False
-    while not rest:
-        growth = _expand(y, w, area, stress, b, c * unit * unit, beyond)
-        length = growth
-        at, dy, _ = _state(y, w, length)
-        aim_y, aim_w = (final, 0.0) if beyond or final <= 1 else (1.0, at_radius * unit)
-        if at >= aim_y or dy <= aim_w:
-            length = _locate(y, w, aim_y, aim_w, length)
-            at, dy, _ = _state(y, w, length)
-            beyond, rest = True, aim_w == 0
+    terms[0][0], terms[1][0] = 0.0, unit
+    ended = False
+    while not ended:
+        length = growth = _expand(terms, b, c * unit * unit)
+        y, w = _state(terms, length)
+        ended = y >= end_y or w <= end_u * unit
+        if ended:
+            length = _locate(terms, end_y, end_u * unit, b, c * unit * unit, length)
         yield start, unit, length
         start += length * unit
-        y[0], w[0] = at, dy * growth
+        terms[0][0], terms[1][0] = y, w * growth
         unit *= growth
 
 
-def _expand(
-    y: Series, w: Series, area: Series, stress: Series, b: float, c: float, beyond: bool
-) -> float:
-    """Fill in the coefficients that follow from y[0] and w[0]; return the length of a step."""
-    area[0] = 1.0 if beyond else 2 * y[0] - y[0] * y[0]
-    stress[0] = b * w[0] * w[0] + c
-    y[1], w[1] = w[0], -stress[0] * area[0]
+def _expand(terms: Array, b: float, c: float) -> float:
+    """Fill in the coefficients that follow from y and w at the start; return the step's length."""
+    y, w, stress, area = terms[0], terms[1], terms[2], terms[3]
+    y_0, w_0 = y[0], w[0]
+    stress_0, area_0 = b * w_0 * w_0 + c, 2 * y_0 - y_0 * y_0
+    y_k, w_k = w_0, -stress_0 * area_0
+    stress[0], area[0], y[1], w[1] = stress_0, area_0, y_k, w_k
     for k in range(1, ORDER):
-        # From both ends to the middle, in sums that the processor can form at the same time.
-        yy, ww, first, last = y[0] * y[k], w[0] * w[k], 0.0, 0.0
-        for j in range(1, (k + 1) // 2):
+        # The sums run from the middle to both ends, so that the processor can start them before the
+        # newest coefficients are known.
+        yy, ww, first, last = 0.0, 0.0, 0.0, 0.0
+        if k % 2 == 0:
+            middle = k // 2
+            yy, ww = y[middle] * y[middle] / 2, w[middle] * w[middle] / 2
+            first = stress[middle] * area[middle]
+        for j in range((k - 1) // 2, 0, -1):
             yy += y[j] * y[k - j]
             ww += w[j] * w[k - j]
             first += stress[j] * area[k - j]
             last += stress[k - j] * area[j]
-        yy, ww = 2 * yy, 2 * ww
-        if k % 2 == 0:
-            middle = k // 2
-            yy += y[middle] * y[middle]
-            ww += w[middle] * w[middle]
-            first += stress[middle] * area[middle]
-        area[k] = 0.0 if beyond else 2 * y[k] - yy
-        stress[k] = b * ww
-        product = first + last + stress[0] * area[k] + stress[k] * area[0]
-        y[k + 1] = w[k] / (k + 1)
-        w[k + 1] = -product / (k + 1)
-    size = max(abs(w[0]), abs(w[1]))
+        stress_k = 2 * b * (w_0 * w_k + ww)
+        area_k = 2 * (y_k - (y_0 * y_k + yy))
+        product = first + last + stress_0 * area_k + stress_k * area_0
+        share = 1 / (k + 1)
+        y_k, w_k = w_k * share, -product * share
+        stress[k], area[k], y[k + 1], w[k + 1] = stress_k, area_k, y_k, w_k
+    size = max(abs(w_0), abs(w[1]))
     highest, before = abs(w[ORDER]) / size, abs(w[ORDER - 1]) / size
     inverse_radius: float = max(highest ** (1 / ORDER), before ** (1 / (ORDER - 1)), 0.05)
     return E_2 / inverse_radius
 
 
-def _states(y: Series, w: Series, s: Series, at: Series, dy: Series, count: int) -> None:
-    """Depths and dy at the first `count` times s of the step; arrays, for the compiled code."""
+def _states(y: Array, w: Array, s: Array, at: Array, dy: Array, count: int) -> None:
+    """Fill in y (`at`) and w (`dy`) at the first `count` times s.
+
+    With single rows and a count as arguments the compiler finds that it can use vectors.
+    """
     for i in range(count):
         depth, speed = y[ORDER], w[ORDER]
         for k in range(ORDER - 1, -1, -1):
@@ -179,31 +226,32 @@ def _states(y: Series, w: Series, s: Series, at: Series, dy: Series, count: int)
         at[i], dy[i] = depth, speed
 
 
-def _state(y: Series, w: Series, s: float) -> tuple[float, float, float]:
-    """Depth, dy and ddy at a time s since the start of the step."""
-    at, dy, ddy = y[ORDER], w[ORDER], 0.0
+def _state(terms: Array, s: float) -> tuple[float, float]:
+    """Return y and w at the time s."""
+    y, w = terms[0], terms[1]
+    at, dy = y[ORDER], w[ORDER]
     for k in range(ORDER - 1, -1, -1):
-        ddy = ddy * s + dy
-        dy = dy * s + w[k]
         at = at * s + y[k]
-    return at, dy, ddy
+        dy = dy * s + w[k]
+    return at, dy
 
 
-def _locate(y: Series, w: Series, depth: float, speed: float, s: float) -> float:
-    """The time along the series at which the motion has this depth and dy, which must occur there.
+def _locate(terms: Array, y: float, w: float, b: float, c: float, s: float) -> float:
+    """Return the time at which the motion has this y and w, by Newton's method from s.
 
-    Newton's method on the distance left, projected on the direction of the motion in the plane of
-    depth and velocity: at touch the depth decides, at rest the velocity.
+    What vanishes is the distance from the state (y, w), projected on the direction of motion in the
+    plane of depth and velocity: so the depth decides at touch, and the velocity at rest.
     """
     for _ in range(10):
-        at, dy, ddy = _state(y, w, s)
-        change = ((depth - at) * dy + (speed - dy) * ddy) / (dy * dy + ddy * ddy)
+        at, dy = _state(terms, s)
+        ddy = -(b * dy * dy + c) * (2 * at - at * at)
+        change = ((y - at) * dy + (w - dy) * ddy) / (dy * dy + ddy * ddy)
         s += change
-        if abs(change) <= 1e-16 * s:
+        if abs(change) <= 1e-9 * s:  # the next change would be about its square
             break
     return s
 
 
-def zeros(count: int) -> list[float]:
-    """So many zeros: a list, or in compiled code an array."""
-    return [0.0] * count
+def zeros(rows: int, columns: int) -> list[list[float]]:
+    """Return rows of zeros: lists, or in compiled code an array."""
+    return [[0.0] * columns for _ in range(rows)]

@@ -4,9 +4,9 @@ Two schemes: "published" takes a row's deceleration at the row's middle depth bu
 velocity, which makes it first order, though the report calls it a mid-point approximation;
 "centered" takes it at the middle velocity too, predicted by half a step, and is second order.
 
-The order of every operation is part of the result: the workbook's formulas use the same one, so
-that both give the same double in every cell. Squares and cubes are written out (`x * x`, never a
-power), and a row's time is `k * dt`, not a running sum.
+The order of operations matters: the workbook's formulas use the same one, so that both give the
+same double in every cell. Squares and cubes are written as products (`x * x`, not a power), and a
+row's time is `k * dt`, not a running sum.
 """
 
 import math
@@ -30,13 +30,13 @@ class Scheme(NamedTuple):
 SCHEMES = {"published": Scheme(1, "initial"), "centered": Scheme(2, "middle")}
 
 MAX_STEPS = 1_000_000
-"""Beyond this a sheet is refused; Excel has 1,048,576 rows."""
+"""A sheet that needs more steps is refused; Excel has 1,048,576 rows."""
 
 
 class Row(NamedTuple):
-    """One row of the sheet; names as in the JSON that `coldspray sheet` prints.
+    """One row of the sheet; the names are those of the JSON that `coldspray sheet` prints.
 
-    time [s], velocity_initial [m/s], depth x [m], deceleration [m/s^2] (printed positive), and
+    time [s], velocity_initial [m/s], depth x [m], deceleration [m/s^2] (printed as positive), and
     velocity_final [m/s], which is None (a blank cell) in row 0, the impact itself.
     """
 
@@ -49,7 +49,7 @@ class Row(NamedTuple):
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """The rows of one case and what the report reads off the last of them."""
+    """The rows of one case, and the results that the report reads from the last one."""
 
     impact: Impact
     rows: tuple[Row, ...] = field(repr=False)  # up to a million
@@ -57,7 +57,7 @@ class Sheet:
 
     @property
     def steps(self) -> int:
-        """Time steps taken: rows without row 0."""
+        """Number of time steps: all rows but row 0."""
         return len(self.rows) - 1
 
     @property
@@ -71,19 +71,19 @@ class Sheet:
         return self.final_depth / self.impact.radius
 
     def frame(self) -> "pd.DataFrame":
-        """The sheet as a pandas frame, by row number, float64, in SI; the blank of row 0 is NaN."""
+        """Return the sheet as a pandas frame indexed by row, in SI units; row 0's blank is NaN."""
         import pandas as pd
 
         return pd.DataFrame(self.rows, dtype="float64").rename_axis("row")
 
 
 def run(impact: Impact, scheme: str = "published") -> Sheet:
-    """Run the report's sheet for one impact, down to the first row that is below the stop velocity.
+    """Run the report's sheet for one impact, up to the first row below the stop velocity.
 
     The scheme "published" takes a row's drag at its initial velocity v, "centered" at its middle
-    one, v - a dt/2 with the deceleration a at x and v (appendix, Eqs. A-1 to A-3). Raises
-    TypeError for what is no `Impact`; ValueError when more than `MAX_STEPS` rows are needed, or the
-    last row is beyond the range of doubles.
+    velocity, v - a dt/2 with the deceleration a at x and v (appendix, Eqs. A-1 to A-3). Raises
+    TypeError if `impact` is not an `Impact`, and ValueError if more than `MAX_STEPS` rows are
+    needed or the last row leaves the range of doubles.
 
     >>> from replication.cases import BETA_5
     >>> sheet = run(BETA_5)
@@ -100,7 +100,7 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
     _, v, x, a, v_final = rows[-1]
     if (v if v_final is None else v_final) >= v_stop:
         raise refusal(math.nan, dt, v_stop)
-    if not math.isfinite(x + a + (v_final or 0.0)):  # only a last row can overflow
+    if not math.isfinite(x + a + (v_final or 0.0)):  # only the last row can overflow
         raise refusal(math.inf, dt, v_stop)
     return Sheet(impact, rows, scheme)
 
@@ -109,9 +109,10 @@ def last_row(
     velocity: float, radius: float, particle_density: float, target_density: float,
     resistance: float, step: float, stop_velocity: float, centered: bool, depth: Any, steps: Any,
 ) -> None:  # fmt: skip
-    """Fill in depth x [m] and number of the sheet's last row, each as the one element of its array.
+    """Fill in the depth x [m] of the sheet's last row and its number: depth[0] and steps[0].
 
-    NaN and `MAX_STEPS` + 1 where more than `MAX_STEPS` rows are needed. Inputs as of `run_many`.
+    They are NaN and `MAX_STEPS` + 1 if more than `MAX_STEPS` rows are needed. The inputs are those
+    of `run_many`.
     """
     x, v, k = 0.0, velocity, 0
     motion = velocity, radius, particle_density, target_density, resistance
@@ -124,18 +125,18 @@ def _rows(
     centered: bool, V: float, R: float, rho_p: float, rho_t: float, R_t: float, dt: float,
     v_stop: float,
 ) -> Iterator[tuple[float, float, float, float, float]]:  # fmt: skip
-    """The rows from 1 on, each what a `Row` has.
+    """Yield the rows from row 1 on, with the fields of `Row`.
 
-    Where more than `MAX_STEPS` are needed the velocity is not below the stop velocity in the last
-    of them; none comes if that is clear from the start.
+    If more than `MAX_STEPS` rows are needed, the last one yielded is not below the stop velocity.
+    If that is certain from the start, no row is yielded.
     """
     k, x, v, M = 0, 0.0, V, particle_mass(R, rho_p)
-    # A row reduces the velocity by at most a dt, with the deceleration a at V and the area pi R^2.
+    # A row reduces the velocity by a dt at most, a being the deceleration at V and area pi R^2.
     if (V - v_stop) / deceleration(R, V, R, M, rho_t, R_t) / dt > MAX_STEPS:
         k = MAX_STEPS
     while k < MAX_STEPS and v >= v_stop:
         k += 1
-        # The half step to start: x is half a step behind the velocity that closes the row.
+        # The first step is a half step, so that x lags half a step behind the final velocity.
         x = v * (dt / 2) if k == 1 else x + v * dt
         a = deceleration(x, v, R, M, rho_t, R_t)
         if centered:
@@ -159,7 +160,7 @@ def deceleration(x: float, v: float, R: float, M: float, rho_t: float, R_t: floa
 
 
 def refusal(depth: float, step: float, stop_velocity: float) -> InputError:
-    """The error of a sheet whose step is much too long, or much too short (its depth is NaN)."""
+    """Return the error for a step that is much too long, or much too short (the depth is NaN)."""
     problem = f"leaves the range of doubles in a step of {step!r} s: take a smaller step"
     if math.isnan(depth):
         steps = f"more than {MAX_STEPS:,} steps of {step!r} s"
@@ -169,5 +170,5 @@ def refusal(depth: float, step: float, stop_velocity: float) -> InputError:
 
 def check_scheme(scheme: str) -> None:
     """Raise ValueError for a scheme that is not one of `SCHEMES`."""
-    if scheme not in [*SCHEMES]:  # which takes what has no hash, too
+    if scheme not in [*SCHEMES]:  # a list, as a set would need a hashable scheme
         raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")

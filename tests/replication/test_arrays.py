@@ -1,4 +1,4 @@
-"""The same functions compiled: the same doubles; what is refused, by element; containers."""
+"""Compiled models: the same doubles as plain ones, errors by element, containers, threads."""
 
 import inspect
 import os
@@ -57,7 +57,7 @@ def as_tuple(results: Any) -> tuple[Any, ...]:
 
 
 def drawn(count: int, *ranges: tuple[float, float]) -> list[np.ndarray]:
-    """Columns of random numbers, evenly spread over the logarithm."""
+    """Return columns of random numbers, uniformly distributed in the logarithm."""
     generator = np.random.default_rng(2006)
     return [np.exp(generator.uniform(np.log(low), np.log(high), count)) for low, high in ranges]
 
@@ -73,12 +73,12 @@ MODELS: dict[Callable[..., Any], tuple[tuple[float, float], ...]] = {
     impact.particle_mass: MOTION[1:3],
     estimates.particle_velocity: (MOTION[0], (1e-15, 1e-6), (1e-15, 1e-6)),
 }
-"""All that is compiled one number at a time, by the functions for arrays and by sweeps."""
+"""All models of numbers that the public functions or sweeps compile, with ranges of inputs."""
 
 
 @pytest.mark.parametrize("model", MODELS, ids=lambda model: model.__name__)
 def test_compiled_is_plain_to_the_last_bit(model: Callable[..., Any]) -> None:
-    # A time walks through whole series in plain Python, a third of a millisecond each.
+    # In plain Python a time takes a third of a millisecond, as it needs the whole series.
     count = CASES // 10 if model in (motion.stop_time, motion.time_to_depth) else CASES
     columns = drawn(count, *MODELS[model])
     plain = [model(*values) for values in zip(*(c.tolist() for c in columns), strict=True)]
@@ -98,10 +98,10 @@ def test_compiled_histories_are_plain_to_the_last_bit() -> None:
 @pytest.mark.parametrize("centered", [False, True])
 @pytest.mark.parametrize("count", [CASES // 10, pytest.param(CASES, marks=pytest.mark.slow)])
 def test_compiled_sheets_are_plain_to_the_last_bit(count: int, centered: bool) -> None:
-    # From two rows to hundreds, some that cross R, some below the stop velocity.
+    # Sheets of two to hundreds of rows; some get beyond R, some start below the stop velocity.
     ranges = ((0.5, 5e3), (1e-6, 1e-4), (1e2, 2e4), (1e2, 2e4), (1e7, 1e11), (0.02, 2))
     columns, scheme = drawn(count, *ranges), list(sheet.SCHEMES)[centered]
-    columns[-1] *= columns[1] / columns[0]  # a step passes this share of the radius
+    columns[-1] *= columns[1] / columns[0]  # a step covers this share of the radius
     result = run_many(*columns, stop_velocity=0.9, scheme=scheme)
     for *row, x, k in zip(*(column.tolist() for column in (*columns, *result)), strict=True):
         rows = sheet.run(impact_of(*row, stop_velocity=0.9), scheme)
@@ -109,11 +109,11 @@ def test_compiled_sheets_are_plain_to_the_last_bit(count: int, centered: bool) -
 
 
 @pytest.mark.parametrize("name", FUNCTIONS)
-def test_many_are_what_each_is_alone(name: str) -> None:
+def test_results_of_many_cases_are_those_of_single_cases(name: str) -> None:
     function = getattr(arrays, name)
-    columns = [value * np.linspace(1.0, 1.05, 60_000) for value in FUNCTIONS[name]]
-    whole = as_tuple(function(*columns))  # shared out over the cores
-    some = [0, 1, 31_000, 59_999]
+    columns = [value * np.linspace(1.0, 1.05, 300_000) for value in FUNCTIONS[name]]
+    whole = as_tuple(function(*columns))  # shared among the cores
+    some = [0, 1, 155_000, 299_999]
     for part in as_tuple(function(*(column[some] for column in columns))):
         assert part.shape == (4,)
     for k in some:
@@ -123,9 +123,9 @@ def test_many_are_what_each_is_alone(name: str) -> None:
 
 
 @pytest.mark.parametrize("kind", [np.float64, np.float32, np.longdouble, int, object, ">f8"])
-def test_a_single_history_is_the_same_in_every_way_to_it(kind: Any) -> None:
-    # A line of doubles goes the short way; the same times as rows, as a list and of other kinds do
-    # not. Zero and one second, touch and long after rest, are the same in every kind.
+def test_the_fast_path_of_a_history_gives_the_same_results(kind: Any) -> None:
+    # A one-dimensional array of doubles takes a fast path; a list, rows and other types do not. The
+    # times zero and one second (touch, and long after rest) are exact in every type.
     times = np.array([1.0, 0.0, 1.0], kind)
     short = history(times.astype(float), *CASE)
     for long in (times, times.tolist(), times[::-1]):
@@ -162,7 +162,7 @@ INPUT = st.one_of(*(st.floats(-p, p).map(lambda power: 10.0**power) for p in (40
 
 @given(st.tuples(INPUT, INPUT, INPUT, INPUT, INPUT))
 @settings(max_examples=500, deadline=None)
-def test_the_range_is_that_of_a_single_impact(case: tuple[float, ...]) -> None:
+def test_arrays_accept_the_same_range_as_a_single_impact(case: tuple[float, ...]) -> None:
     def refused(function: Callable[[], Any]) -> bool:
         try:
             function()
@@ -178,7 +178,7 @@ def test_the_range_is_that_of_a_single_impact(case: tuple[float, ...]) -> None:
 
 
 @pytest.mark.parametrize("name", replication.__all__)
-def test_what_is_public_can_be_sent_to_another_process(name: str) -> None:
+def test_public_objects_can_be_pickled(name: str) -> None:
     public = getattr(replication, name)
     assert pickle.loads(pickle.dumps(public)) == public
 
@@ -209,7 +209,7 @@ def test_series_and_labeled_and_lazy_arrays(name: str) -> None:
             np.testing.assert_array_equal(np.asarray(result), numbers)
 
 
-def test_labels_units_and_names_of_the_inputs_are_not_the_results() -> None:
+def test_results_keep_labels_but_not_units_and_names_of_inputs() -> None:
     velocity = xarray.DataArray([400.0, 500.0], {"case": ["a", "b"]}, name="velocity")
     velocity.attrs["units"] = "m/s"
     with xarray.set_options(keep_attrs=True):
@@ -221,7 +221,7 @@ def test_labels_units_and_names_of_the_inputs_are_not_the_results() -> None:
     assert grid[0].dims == ("time", "case")
 
 
-def test_lazy_arrays_in_any_chunks_and_beside_others() -> None:
+def test_lazy_arrays_in_any_chunks_and_with_other_arrays() -> None:
     velocity, radius = np.linspace(300, 900, 30), np.linspace(1e-6, 1e-4, 30)
     expected = arrays.final_depth(velocity, radius, *CASE[2:])
     lazy = dask.array.from_array(velocity, 7)
@@ -232,16 +232,16 @@ def test_lazy_arrays_in_any_chunks_and_beside_others() -> None:
     np.testing.assert_array_equal(np.diag(table.compute()), expected)
 
 
-# Threads, processes, and where nothing can be kept
+# Threads, processes, and folders that cannot be written to
 
 
-def test_threads_and_dask_share_out_nothing_twice() -> None:
-    velocities = np.linspace(300, 900, 200_000)
+def test_results_are_the_same_in_threads_and_in_dask() -> None:
+    velocities = np.linspace(300, 900, 500_000)
     expected = arrays.final_depth(velocities, *CASE[1:])
     with ThreadPoolExecutor(8) as threads:
         for result in threads.map(lambda _: arrays.final_depth(velocities, *CASE[1:]), range(8)):
             np.testing.assert_array_equal(result, expected)
-    lazy = arrays.final_depth(dask.array.from_array(velocities, 50_000), *CASE[1:])
+    lazy = arrays.final_depth(dask.array.from_array(velocities, 125_000), *CASE[1:])
     with dask.config.set(scheduler="threads", num_workers=8):
         np.testing.assert_array_equal(lazy.compute(), expected)
 
@@ -250,7 +250,7 @@ FORKED = """
 import os, sys
 import numpy as np
 from replication.models import arrays
-velocities = np.linspace(300, 900, 200_000)
+velocities = np.linspace(300, 900, 500_000)
 rest = (11e-6, 8900.0, 7850.0, 3.5e9)
 whole = arrays.final_depth(velocities, *rest)
 child = os.fork()
@@ -261,11 +261,11 @@ sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
 
 
 @pytest.mark.skipif("fork" not in get_all_start_methods(), reason="no fork here")
-def test_a_fork_goes_on_computing() -> None:
+def test_a_forked_process_can_compute() -> None:
     subprocess.run([sys.executable, "-c", FORKED], check=True, timeout=300)
 
 
-def test_what_is_compiled_is_kept_by_the_source_of_all_models_or_done_again(tmp_path: Path) -> None:
+def test_compiled_code_is_cached_until_a_model_changes_or_compiled_anew(tmp_path: Path) -> None:
     copy, home = tmp_path / "replication" / "models", tmp_path / "home"
     shutil.copytree(Path(arrays.__file__).parent, copy, ignore=lambda *_: ["__pycache__"])
     (copy.parent / "__init__.py").touch()
@@ -298,14 +298,14 @@ TOGETHER = """
 import sys
 from replication.models import arrays, motion, sheet
 for model in (arrays.depth.final_depth, motion.stop_time, motion.time_to_depth)[: int(sys.argv[1])]:
-    arrays.ufunc(model)  # so that each process numbers what it compiles in its own way
+    arrays.ufunc(model)  # so that the processes number their functions differently
 case = 500.0, 11e-6, 8900.0, 7850.0, 3.5e9
 print(arrays.run_many([500.0, 500.0], *case[1:])[1], arrays.history([0.0, 1.0], *case)[1])
 """
 
 
 @pytest.mark.slow
-def test_processes_that_compile_at_once_keep_what_belongs_together(tmp_path: Path) -> None:
+def test_processes_that_compile_at_once_share_one_cache(tmp_path: Path) -> None:
     environment = {**os.environ, "NUMBA_CACHE_DIR": str(tmp_path)}
 
     def start(compiled_before: int) -> subprocess.Popen[str]:
@@ -314,11 +314,11 @@ def test_processes_that_compile_at_once_keep_what_belongs_together(tmp_path: Pat
 
     together = [start(count) for count in range(3)]
     outputs = [process.communicate()[0] for process in together]
-    outputs.append(start(0).communicate()[0])  # with what they have kept
+    outputs.append(start(0).communicate()[0])  # from the cache
     assert outputs == ["[131 131] [500.   0.]\n"] * 4
 
 
-def test_public_names_are_there_and_loaded_when_used() -> None:
+def test_public_names_are_loaded_when_used() -> None:
     program = (
         "import sys, replication\n"
         "assert not [name for name in sys.modules if name.startswith('replication.')]\n"

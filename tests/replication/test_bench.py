@@ -1,4 +1,4 @@
-"""Work-precision: what is measured, how it is compared, what is printed. Never how fast it is."""
+"""The bench: what it measures, compares and prints, but not how fast anything is."""
 
 import csv
 import json
@@ -42,19 +42,19 @@ def errors(case: Case, method: str, measure: str) -> list[float]:
     return [case.error(task.measure, task.run(), task.stop) for task in asked]
 
 
-# Of second order, the centered sheet is only as near as it is where it is compared at its stop.
+# The centered sheet is second order only if it is compared at its stop velocity.
 @pytest.mark.parametrize(("scheme", "bound"), [("published", 2e-5), ("centered", 1e-6)])
-def test_the_sheet_converges_and_its_bare_loop_is_the_sheet(
+def test_the_sheet_converges_and_the_bare_loop_gives_the_same_errors(
     scheme: str, bound: float, beta_5: Case
 ) -> None:
     name = f"sheet, {scheme}"
     depth, many = (errors(beta_5, method, "depth") for method in (name, f"{name}, many"))
     for ladder in (depth, errors(beta_5, name, "history")):
         assert len(ladder) == len(STEPS)
-        # To within its stopping rule: a step more or less.
+        # The stop rule, a step more or less, limits the accuracy.
         assert ladder[-1] < bound < 1e-3 < ladder[0]
     assert many == sorted(many, reverse=True)
-    # The fastest of the cases takes a tenth fewer steps, and its error is the greatest.
+    # The fastest impact takes a tenth fewer steps, so its error is the largest.
     assert many[2] == pytest.approx(depth[2], abs=2e-4)
     if scheme == "published":
         for suffix, sheets in (("", depth), (", many", many)):
@@ -62,11 +62,11 @@ def test_the_sheet_converges_and_its_bare_loop_is_the_sheet(
             assert bare == pytest.approx(sheets, rel=1e-9)
 
 
-def test_the_sheet_s_history_is_compared_down_to_where_the_sheet_ends(beta_5: Case) -> None:
+def test_a_sheets_history_is_compared_down_to_its_stop_velocity(beta_5: Case) -> None:
     depths = [float(depth) for depth in beta_5.depths]
     late = np.interp(np.minimum(beta_5.times, 2e-8), beta_5.times, depths)
     assert beta_5.error("history", late) > 1e-2
-    # Until there only the straight lines between the exact depths are off.
+    # Before that velocity, only the linear interpolation is off.
     _, velocity = history(2e-8, *BETA_5.motion.values())
     assert beta_5.error("history", late, stop=velocity) < 1e-3
 
@@ -77,7 +77,7 @@ EXACT = {
     "closed form, bare function": 1e-14,
     "closed form, Numba loop, many": 1e-14,
 }
-"""These have no ladder of settings, and cross the radius as if it were not there."""
+"""The largest errors of methods that have no settings and lose no accuracy at y = 1."""
 
 FINE = {
     **{name: ("rtol 1e-10", 1e-8) for name, (form, *_) in SOLVERS.items() if "rtol" in form},
@@ -89,14 +89,14 @@ FINE = {
 INTERPRETED = (
     "(closed form|sheet, (published|centered)|.*(plain Python|bare function)|solve_ivp .*)"
 )
-"""What compiles nothing."""
+"""Methods that compile nothing."""
 
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
-def test_methods_find_the_exact_answers(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_methods_find_the_exact_depths(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("replication.bench.measure.POINTS", 11)
     case = build(name)
-    # Nothing smooths the kink of Eq. 13 at x = R for a method that steps over it.
+    # The solvers step over the kink of Eq. 13 at x = R, and lose accuracy there.
     kink = 1.0 if name == "beta-5" else 1e4
     met = set()
     for task in tasks(case):
@@ -116,7 +116,7 @@ def tried(case: Case, task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
 TASK = Task("a", "b", "depth", lambda: 7.67e-6)
 
 
-def test_what_fails_or_takes_too_long_is_a_gap_with_its_reason(
+def test_a_task_that_fails_or_takes_too_long_is_a_gap_with_a_reason(
     beta_5: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def fail() -> float:
@@ -135,9 +135,7 @@ def test_what_fails_or_takes_too_long_is_a_gap_with_its_reason(
     assert tried(case, task)["gap"] == reason
 
 
-def test_a_time_is_that_of_a_batch_over_its_calls_and_cases(
-    beta_5: Case, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_times_are_per_call_and_per_case(beta_5: Case, monkeypatch: pytest.MonkeyPatch) -> None:
     seconds = iter([0.251, 0.001, *(5 * 1e-3 * k for k in (4, 1, 2))])
 
     def timed(run: Callable[[], Any], number: int) -> float:
@@ -155,7 +153,7 @@ def test_a_time_is_that_of_a_batch_over_its_calls_and_cases(
     assert alone["error"] == pytest.approx(6.4e-4, rel=0.01)
 
 
-def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress(
+def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress_bar(
     beta_5: Case, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     turns: list[str] = []
@@ -184,7 +182,7 @@ def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress(
     assert turns[-1] == "closed"
 
 
-def test_the_table_says_it_all() -> None:
+def test_the_table_of_two_made_up_runs() -> None:
     coarse, history = {"setting": "rtol 1e-06"}, {"measure": "history"}
     gap = dict.fromkeys(("error", "best", "median", "repeats", "calls"))
     gap |= {"gap": "takes 7 s, more than 5 s"}

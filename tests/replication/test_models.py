@@ -1,4 +1,4 @@
-"""The models of one case in plain floats, against exact ones in many digits; and their errors."""
+"""The models in plain floats against the exact motion in many digits, and the sheet's errors."""
 
 import math
 from dataclasses import replace
@@ -53,7 +53,7 @@ IMPACTS = st.builds(
 
 @given(IMPACTS, st.sampled_from(list(SCHEMES)))
 @settings(max_examples=60, deadline=None)
-def test_rounding_is_all_that_parts_it_from_the_scheme_in_50_digits(
+def test_the_sheet_differs_from_the_scheme_in_50_digits_by_rounding_only(
     impact: Impact, scheme: str
 ) -> None:
     reals, sheet = Reals(50), run(impact, scheme)
@@ -77,7 +77,7 @@ def test_rounding_is_all_that_parts_it_from_the_scheme_in_50_digits(
 
 
 @given(IMPACTS, st.floats(0, 1), st.sampled_from(list(SCHEMES)))
-def test_a_sheet_is_refused_only_for_more_steps_than_are_allowed(
+def test_a_sheet_of_the_greatest_number_of_steps_is_not_refused(
     impact: Impact, stop: float, scheme: str
 ) -> None:
     impact = replace(impact, stop_velocity=stop * impact.velocity)
@@ -101,7 +101,7 @@ ULP = 2.0**-52
 
 
 def spread(low: float, high: float) -> st.SearchStrategy[float]:
-    """Evenly over the logarithm."""
+    """Draw floats uniformly in the logarithm."""
     powers = st.floats(0, 1)
     return powers.map(lambda power: low * (high / low) ** power)
 
@@ -109,7 +109,7 @@ def spread(low: float, high: float) -> st.SearchStrategy[float]:
 CASES = st.tuples(
     spread(1e-6, 1e5), spread(1e-9, 1), spread(1, 1e5), spread(1, 1e5), spread(1e3, 1e13)
 )
-"""Shallow to hypervelocity, most of the deep ones beyond the radius."""
+"""Inputs from shallow impacts to hypervelocity; most deep ones get beyond the radius."""
 
 
 def exact(case: tuple[float, ...]) -> Trajectory:
@@ -123,7 +123,7 @@ def history(times: list[float], *case: float) -> tuple[list[float], list[float]]
 
 
 def roundings(truth: Trajectory) -> float:
-    """64 ulp, and those of the exponent k W of v^2, each of which is relative to all of it."""
+    """Return 64 ulp, and 16 for each unit of the exponent of v^2, which exp magnifies."""
     return (64 + 16 * float(truth.context.log1p(truth.drag / truth.push))) * ULP
 
 
@@ -131,7 +131,7 @@ def roundings(truth: Trajectory) -> float:
 def test_elasticities_are_the_slopes_of_the_reference(case: tuple[float, ...], name: str) -> None:
     velocity, _, *materials = case
     if abs(normalized_depth(velocity, *materials) - 1) < 1e-6:
-        return  # the second derivative jumps at y = 1, so that differences across it are coarser
+        return  # the second derivative jumps at y = 1, so differences across it are less accurate
     h = Fraction(1, 10**12)
 
     def log_depth(share: Fraction) -> Any:
@@ -141,7 +141,7 @@ def test_elasticities_are_the_slopes_of_the_reference(case: tuple[float, ...], n
         return truth.context.log(truth.final_depth)
 
     slope = (log_depth(h) - log_depth(-h)) / 2 * h.denominator
-    # The difference is off by its h^2, the closed form by rounding, most where q - 1 cancels.
+    # The difference has an error of h^2; the closed form has rounding errors where q - 1 cancels.
     assert elasticities(velocity, *materials)[name] == pytest.approx(
         float(slope), rel=1e-9, abs=1e-12
     )
@@ -156,7 +156,7 @@ def test_depth_velocity_and_time_follow_the_exact_motion(
     bound, v = roundings(truth), share * case[0]
     at = truth.depth_at_velocity(Fraction(v))
     depth = float(at)
-    # A depth that is short of the last by a share s loses 1 / 2s of its ulps in v and time.
+    # At a share s before the final depth, an ulp of depth becomes 1 / 2s ulps of v and of time.
     near_rest = bound / max(float(1 - at / truth.final_depth), ULP)
     assert depth_at_velocity(v, *case) == pytest.approx(depth, rel=bound / (1 - share))
     stop = float(truth.stop_time(Fraction(v)))
@@ -169,7 +169,7 @@ def test_depth_velocity_and_time_follow_the_exact_motion(
 
 
 def check_history(case: tuple[float, ...], share: float) -> None:
-    """At the exact time of a depth, 1 - share^2 of the last, it is there to fourteen digits."""
+    """Check depth and velocity to 14 digits at the exact time of depth 1 - share^2 of the final."""
     truth = exact(case)
     expected = truth.final_depth * (1 - truth.context.mpf(share) ** 2)
     # Rounding the time to a double moves the depth by half an ulp of v t, which is below x.
@@ -179,7 +179,9 @@ def check_history(case: tuple[float, ...], share: float) -> None:
 
 
 @given(case=CASES, share=st.floats(0, 1))
-@example(case=(1.0, 1.0, 1.0, 1.0, 10.0**5.3515625), share=0.0)  # ways to the last depth disagree
+@example(
+    case=(1.0, 1.0, 1.0, 1.0, 10.0**5.3515625), share=0.0
+)  # ways to compute the final depth disagree
 @settings(max_examples=12)
 def test_history_is_exact_to_fourteen_digits(case: tuple[float, ...], share: float) -> None:
     check_history(case, share)
@@ -192,7 +194,7 @@ def test_histories_go_on_until_rest(case: tuple[float, ...], shares: list[float]
     stop, final = stop_time(*case), final_depth(*case)
     times = sorted(share * stop for share in shares)
     depth, speed = history(times, *case)
-    # Neighbouring times may differ by less than the roundings of a step.
+    # The depths of neighbouring times may differ by less than the rounding errors of a step.
     assert all(b - a >= -1e-14 * final for a, b in pairwise(depth))
     assert all(b - a <= 1e-14 * case[0] for a, b in pairwise(speed))
     for time, x, v in zip(times, depth, speed, strict=True):
@@ -203,8 +205,8 @@ def test_histories_go_on_until_rest(case: tuple[float, ...], shares: list[float]
 
 
 @pytest.mark.parametrize("crossing", [1 - 1e-9, 1 - 1e-15, 1.0, 1 + 1e-15, 1 + 1e-9, 1.5])
-def test_motions_that_barely_cross_the_radius(crossing: float) -> None:
-    # By its resistance a case is made to rest at y = crossing, there to 1e-14 of itself.
+def test_motions_that_end_near_the_radius(crossing: float) -> None:
+    # Choose the resistance, to a relative 1e-14, so that the particle rests at y = crossing.
     resistance = brentq(
         lambda R_t: normalized_depth(500.0, 8900.0, 7850.0, R_t) - crossing, 1e6, 1e12, xtol=1e-6
     )
@@ -214,8 +216,8 @@ def test_motions_that_barely_cross_the_radius(crossing: float) -> None:
 
 
 @given(st.floats(1e-6, 0.5))
-def test_a_crater_has_the_volume_that_its_depth_came_from(ratio: float) -> None:
-    """Depth y over radius, of a part y^2 (3 - y) / 4 of the sphere."""
+def test_a_crater_has_the_volume_that_gave_its_depth(ratio: float) -> None:
+    """A depth of y radii buries a share y^2 (3 - y) / 4 of the sphere."""
     y = crater.depth_from_volume_ratio(ratio)
     assert y * y * (3 - y) / 4 == pytest.approx(ratio, rel=1e-14)
 
@@ -225,20 +227,20 @@ def test_a_crater_has_the_volume_that_its_depth_came_from(ratio: float) -> None:
 
 @pytest.mark.parametrize("scheme", SCHEMES)
 @pytest.mark.parametrize("impact", [BETA_3, BETA_5, replace(BETA_5, velocity=1500.0)])
-def test_the_time_step_part_has_the_schemes_order(impact: Impact, scheme: str) -> None:
+def test_the_time_step_part_has_the_order_of_the_scheme(impact: Impact, scheme: str) -> None:
     result = ladder.converge(impact, ladder.ladder(1e-10, 7), scheme)
     assert result["levels"][-1]["time_step_order"] == pytest.approx(SCHEMES[scheme].order, abs=0.02)
 
 
 def richardson(order: int, ratio: float, assumed: int) -> dict[str, float]:
-    """What is extrapolated from depths of a known order, 5 in the limit."""
+    """Extrapolate depths of a known order whose limit is 5."""
     steps = [ratio**2, ratio, 1.0]
     result = ladder.extrapolated(steps, [5.0 + 0.25 * h**order for h in steps], assumed)
     return {key: round(value, 11) for key, value in result.items() if value is not None}
 
 
 def regime(order: float, *parts: float) -> str:
-    """What governs an error of which these parts are known; ladders of `said.txt` have others."""
+    """Return what governs an error with these parts; `said.txt` has more examples."""
     names = ("time_step", "stop_rule", "half_step", "rounding")
     return ladder.regime(1.0, dict(zip(names, parts, strict=True)), order, 1)
 
@@ -269,10 +271,10 @@ def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> No
 
 
 @pytest.mark.parametrize("name", hard_cases.HARD_CASES)
-def test_the_closed_form_holds_in_hard_cases_and_an_ulp_is_seen(
+def test_the_closed_form_is_within_4_ulp_in_hard_cases_and_the_measure_sees_one_ulp(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The sheets beside it, their warnings and the refusals stand in `said.txt`."""
+    """The sheets of these cases, their warnings and the errors are in `said.txt`."""
     if (ulps := hard_cases.outcome(name)["ulps"]) is not None:
         assert abs(ulps) <= 4
         monkeypatch.setattr(
@@ -282,7 +284,7 @@ def test_the_closed_form_holds_in_hard_cases_and_an_ulp_is_seen(
         assert hard_cases.outcome(name)["ulps"] - ulps == pytest.approx(1, abs=0.51)
 
 
-def test_closed_form_keeps_within_4_ulp_over_a_hundred_thousand_cases() -> None:
+def test_the_closed_form_is_within_4_ulp_in_a_hundred_thousand_cases() -> None:
     worst = hard_cases.worst_of(100_000, seed=1)
     assert worst["skipped"] == 0
     assert 0.5 < abs(worst["ulps"]) <= 4, "and the measure is alive"

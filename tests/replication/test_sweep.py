@@ -1,4 +1,7 @@
-"""Sweeps: what a plan means, and files that are whole and the same; refusals are in `said.txt`."""
+"""Sweeps: reading plans, drawing, results, and complete, reproducible files.
+
+Error messages are in `said.txt`.
+"""
 
 import csv
 import json
@@ -56,7 +59,7 @@ def names(folder: Path) -> list[str]:
 
 
 @kept("replication/kept.txt", "What a plan means")
-def test_what_a_plan_means(question: str, answer: str, tmp_path: Path) -> None:
+def test_plans_give_the_expected_cases(question: str, answer: str, tmp_path: Path) -> None:
     cases = all_of(plan_of(tmp_path, question))
     for name, expected in eval(answer).items():
         rounding = 2e-9 if "ksi" in question else 1e-15
@@ -67,12 +70,12 @@ def test_what_a_plan_means(question: str, answer: str, tmp_path: Path) -> None:
 @given(
     first=st.floats(1e-9, 1e9), last=st.floats(1e-9, 1e9), count=st.integers(2, 200),
 )  # fmt: skip
-def test_ranges_are_numpy_s(first: float, last: float, count: int) -> None:
+def test_ranges_are_those_of_numpy(first: float, last: float, count: int) -> None:
     ends = {"from": str(first), "to": str(last), "points": count}
     for scale, expected in (("linear", np.linspace), ("log", np.geomspace)):
         source = sweep.read_source("radius", {**ends, "scale": scale})
         values = source.at(np.arange(count))
-        # The exponent, at most 9, is off by two ulp (4e-15): relatively that times ln 10.
+        # The exponent, at most 9, is off by two ulp (4e-15), so the value by ln 10 times that.
         np.testing.assert_allclose(values, expected(first, last, count), rtol=2e-14)
         assert (values[0], values[-1]) == (first, last)
         assert source.bounds == (values.min(), values.max()) == (min(first, last), max(first, last))
@@ -82,29 +85,29 @@ def test_ranges_are_numpy_s(first: float, last: float, count: int) -> None:
 
 
 @given(seed=st.integers(0, 2**64 - 1), first=st.integers(0, 10**12), count=st.integers(0, 40))
-def test_a_case_has_its_random_number_in_any_block(seed: int, first: int, count: int) -> None:
+def test_a_case_has_the_same_random_number_in_any_block(seed: int, first: int, count: int) -> None:
     whole = sweep.uniform(seed, 3, first, count + 7)
     assert (sweep.uniform(seed, 3, first, count) == whole[:count]).all()
     assert (sweep.uniform(seed, 3, first + count, 7) == whole[count:]).all()
     assert ((whole >= sweep.LEAST_SHARE) & (whole <= 1 - sweep.LEAST_SHARE)).all()
 
 
-def test_seeds_and_inputs_have_numbers_of_their_own(tmp_path: Path) -> None:
+def test_random_numbers_of_seeds_and_inputs_are_independent(tmp_path: Path) -> None:
     count = 100_000
     drawn = [sweep.uniform(0, stream, 0, count) for stream in (0, 1)]
     cases = plan_of(tmp_path, STREAM.format(samples=count)).inputs(0, count)
     radius, velocity = law("lognormal", 11e-6, 2.8e-6), law("normal", 500, 50)
     drawn += [radius(cases["radius"]), velocity(cases["velocity"])]  # of seed 1
-    # Of independent numbers a correlation is normal about 0 with deviation count^(-1/2).
+    # Correlations of independent numbers are normal about 0 with deviation count^(-1/2).
     assert (abs(np.corrcoef(drawn) - np.eye(4)) < 5 / math.sqrt(count)).all()
-    # So seldom are even numbers as far from an even spread: by chance, in none of these.
+    # Truly uniform numbers would fail this once in a million times.
     assert all(stats.kstest(shares, "uniform").pvalue > 1e-6 for shares in drawn)
 
 
 def law(
     kind: str, mean: float, deviation: float, lower: float = 0, upper: float = math.inf
 ) -> Callable[[Any], Any]:
-    """The share of a distribution of a plan below a value, by SciPy."""
+    """Return the cumulative distribution function of a plan's distribution, by SciPy."""
     sigma = math.sqrt(math.log1p((deviation / mean) ** 2))
     whole = {
         "uniform": lambda: stats.uniform(lower, upper - lower),
@@ -136,10 +139,10 @@ def test_quantiles_are_those_of_the_distribution_within_its_bounds(
     shares.sort()
     values = source.at(np.array(shares))
     least, greatest = source.bounds
-    assert (np.diff(values) >= -1e-14 * values[1:]).all()  # the inverse has 16 digits
+    assert (np.diff(values) >= -1e-14 * values[1:]).all()  # the inverse is correct to 15 digits
     assert ((values >= least) & (values <= greatest)).all()
     assert lower <= least <= greatest <= lower + 2e-4
-    # Of doubles near 1, whose last digit is 1e-16, a millionth may be all that there is.
+    # If the bounds leave a millionth of the distribution, an ulp of 1e-16 becomes 1e-10.
     assert law(kind, mean, deviation, **ends)(values) == pytest.approx(shares, abs=1e-9)
 
 
@@ -174,7 +177,7 @@ def test_results_are_those_of_single_cases(tmp_path: Path) -> None:
             }
 
 
-def test_every_way_to_write_an_input_is_one(tmp_path: Path) -> None:
+def test_every_documented_way_to_write_an_input_is_read(tmp_path: Path) -> None:
     manual = (EXAMPLES / "README.md").read_text("utf-8")
     ways = re.findall(r"^\| `(.+?)` \|", manual.partition("optional table")[0], re.MULTILINE)
     assert len(ways) == 6
@@ -196,7 +199,7 @@ def test_every_example_runs(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("suffix", ["csv", "parquet"])
-def test_the_bytes_are_the_same_on_every_run_and_parts_are_the_whole(
+def test_every_run_writes_the_same_bytes_and_parts_make_up_the_whole(
     suffix: str, tmp_path: Path
 ) -> None:
     plan, told = plan_of(tmp_path, STREAM.format(samples=2 * sweep.BLOCK + 17)), list[int]()
@@ -211,7 +214,7 @@ def test_the_bytes_are_the_same_on_every_run_and_parts_are_the_whole(
         return
     whole, _, *parts = map(pyarrow.parquet.read_table, files)
     assert pyarrow.concat_tables(parts).equals(whole)
-    for first, count in ((0, 1), (299, 3), (17, 583)):  # nor do cases depend on their block
+    for first, count in ((0, 1), (299, 3), (17, 583)):  # cases do not depend on their block
         cases = {
             name: column.tolist() for name, column in sweep.compute(plan, first, count).items()
         }
@@ -229,11 +232,11 @@ def test_memory_does_not_grow_with_the_cases(tmp_path: Path) -> None:
         arguments = ["sweep", tmp_path / "plan.toml", "-o", tmp_path / "o.parquet", "--quiet"]
         done = subprocess.run([sys.executable, "-c", program, *arguments], capture_output=True)
         peaks.append(int(done.stdout))
-    # All the columns of a million cases more would take 96 MB.
+    # The columns of another million cases would take 96 MB.
     assert peaks[1] < peaks[0] + 50
 
 
-def test_the_command_writes_units_all_digits_and_whose_they_are(
+def test_the_command_writes_units_all_digits_and_provenance(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.chdir(tmp_path)
@@ -264,13 +267,13 @@ def test_the_command_writes_units_all_digits_and_whose_they_are(
 
 
 def command(folder: Path, samples: int) -> list[object]:
-    """The command for a plan of so many cases."""
+    """Write a plan of this many cases and return the command that runs it."""
     plan_of(folder, STREAM.format(samples=samples))
     files = ["sweep", folder / "plan.toml", "-o", folder / "out.csv"]
     return [sys.executable, "-m", "replication", *files]
 
 
-def test_progress_is_for_a_terminal(tmp_path: Path) -> None:
+def test_a_progress_bar_is_shown_on_a_terminal(tmp_path: Path) -> None:
     screen, terminal = os.openpty()
     termios.tcsetwinsize(terminal, (24, 90))
     subprocess.run(command(tmp_path, 100), stdout=-3, stderr=terminal, check=True)
@@ -286,7 +289,9 @@ def test_progress_is_for_a_terminal(tmp_path: Path) -> None:
 def test_an_interrupted_sweep_leaves_nothing(
     send: Callable[[int, int], None], number: int, tmp_path: Path
 ) -> None:
-    def listening() -> None:  # a shell's background jobs ignore the one, those of nohup the other
+    def listening() -> (
+        None
+    ):  # a shell's background jobs ignore SIGINT, and those of nohup ignore SIGHUP
         for ignored in (signal.SIGINT, signal.SIGHUP):
             signal.signal(ignored, signal.SIG_DFL)
 
@@ -304,7 +309,7 @@ def test_an_interrupted_sweep_leaves_nothing(
     assert names(tmp_path) == ["plan.toml"]
 
 
-def test_a_draft_is_on_the_disk_before_it_has_its_name(
+def test_a_draft_is_on_the_disk_before_it_is_renamed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     synced: list[list[str]] = []
@@ -318,7 +323,7 @@ def test_dask_writes_the_same_cases(tmp_path: Path) -> None:
     plan = plan_of(tmp_path, STREAM.format(samples=1000))
     sweep.write(plan, tmp_path / "here.parquet")
     command = [sys.executable, "-W", "error", EXAMPLES / "on_dask.py", tmp_path / "plan.toml"]
-    for _ in range(2):  # the second finds what the first wrote
+    for _ in range(2):  # the second run finds the part of the first
         subprocess.run([*command, tmp_path / "parts"], check=True, capture_output=True)
     (part,) = (tmp_path / "parts" / plan.digest).iterdir()
     assert part.read_bytes() == (tmp_path / "here.parquet").read_bytes()
