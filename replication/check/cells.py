@@ -28,7 +28,7 @@ _BLOCK = 12
 """The most inputs that stand one below the other; more numbers are a column."""
 
 
-def drifting(exam: Examination) -> None:
+def judge_references(exam: Examination) -> None:
     """Report references to a cell beside the table that move on from row to row for want of a $."""
     lines, number = exam.table.every_line, exam.calculation.number
     entries = (*exam.inputs.values(), *exam.derived.values(), *exam.unread)
@@ -78,32 +78,27 @@ def _beside(exam: Examination) -> Iterator[Beside]:
     """Yield each column that may hold contact areas, pressures or forces."""
     if not exam.table.helpers or "deceleration" not in exam.rows.columns:
         return
-    area, pressure, force = (dict[int, tuple[float, float]]() for _ in range(3))
+    areas, pressures, forces = (dict[int, tuple[float, float]]() for _ in range(3))
     for k in range(1, exam.table.steps + 1):
         x, v, a = (exam.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
-        contact_area = math.pi * contact(
-            exam.case, x or 0.0
-        )  # 0 at touch and at depths like 5E-324
-        if contact_area and v is not None and a is not None:
-            implied = a * exam.case.mass
-            stress = 0.5 * exam.case.target_density * v * v + exam.case.resistance
-            area[k], pressure[k] = (
-                (implied / stress, contact_area),
-                (implied / contact_area, stress),
-            )
-            force[k] = implied, stress * contact_area
+        area = math.pi * contact(exam.case, x or 0.0)  # 0 at touch, and at depths such as 5E-324 m
+        if area and v is not None and a is not None:
+            force = a * exam.case.mass
+            pressure = 0.5 * exam.case.target_density * v * v + exam.case.resistance
+            areas[k], pressures[k] = (force / pressure, area), (force / area, pressure)
+            forces[k] = force, pressure * area
     quantities = (
-        ("area", "of the contact at the depth", "m^2", area),
-        ("pressure", "at the velocity", "Pa", pressure),
-        ("force", "at the depth and the velocity", "N", force),
+        ("area", "of the contact at the depth", "m^2", areas),
+        ("pressure", "at the velocity", "Pa", pressures),
+        ("force", "at the depth and the velocity", "N", forces),
     )
     for (name, of, dimension, values), line in product(quantities, exam.table.helpers):
         numbers = {k: number for k in values if (number := line.at(exam.table.zero + k))}
         if len(numbers) >= LEAST:
-            units, right = ({k: values[k][i] / x for k, x in numbers.items()} for i in (0, 1))
+            implied, right = ({k: values[k][i] / x for k, x in numbers.items()} for i in (0, 1))
             cells = {k: line.place(exam.table.zero + k) for k in right if not near(*values[k])}
             says = f"this {name} is not that {of} of its row"
-            yield Beside(line, name, says, dimension, units, right, cells)
+            yield Beside(line, name, says, dimension, implied, right, cells)
 
 
 def _power(units: dict[int, float]) -> int | None:
@@ -112,7 +107,7 @@ def _power(units: dict[int, float]) -> int | None:
     return power_of_ten(first) if all(near(unit, first) for unit in others) else None
 
 
-def units_beside(exam: Examination) -> None:
+def judge_heads_beside(exam: Examination) -> None:
     """Report heads of contact areas, pressures and forces whose unit contradicts the numbers."""
     for column in _beside(exam):
         line, power = column.line, _power(column.right)
@@ -135,7 +130,7 @@ def wrong_beside(exam: Examination) -> Beside | None:
 # ---- each cell, by the cells before it and by its column
 
 
-def each_cell(exam: Examination) -> None:
+def judge_cells(exam: Examination) -> None:
     """Report every cell that does not follow from the cells before it or is unlike its column."""
     calculation = exam.calculation
     beside = wrong_beside(exam)
@@ -146,18 +141,17 @@ def each_cell(exam: Examination) -> None:
     wrong: dict[Position, tuple[str, str, float | None]] = {}
     for place, (role, k) in exam.table.places.items():
         expected = exam.rows.wanted(role, k)
+        sources = {area.corner for area in calculation.areas(place)} - {place}
         if place in odd:
             kind, text = odd.pop(place)
             if error := calculation.error(place):
                 kind, text = "odd formula", f"{text}; it gives {error}"
             elif reason := calculation.uncomputed.get(place):
                 kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
-        elif place in accused or any(
-            area.corner in spoilt and area.corner != place for area in calculation.areas(place)
-        ):
+        elif place in accused or sources & spoilt:
             continue
-        elif _fails(exam, role, k, expected, place in read):
-            kind, text = _lone(exam, role, k, expected)
+        elif _fails(exam, role, k, place in read):
+            kind, text = _lone(exam, role, k)
             if beside and role == "deceleration" and k in beside.cells:
                 place, expected, text = beside.cells[k], None, beside.says
             place, text = _converting(exam, place, text)
@@ -302,10 +296,9 @@ def _unlike(exam: Examination, beside: Beside | None) -> dict[Position, tuple[st
     odd = {p: why for line in exam.table.every_line for p, why in irregular(line, exam.table)}
     for role in {exam.table.places[place][0] for place in odd.keys() & exam.table.places.keys()}:
         fails = {
-            place: _fails(exam, role, k, expected)
+            place: _fails(exam, role, k)
             for k, place in enumerate(exam.cells(role, 1), 1)
-            if place in exam.calculation.formulas
-            if (expected := exam.rows.wanted(role, k)) is not None
+            if place in exam.calculation.formulas and exam.rows.wanted(role, k) is not None
         }
         if any(fails[place] for place in fails.keys() - odd.keys()):
             odd = {place: why for place, why in odd.items() if fails.get(place, True)}
@@ -315,15 +308,13 @@ def _unlike(exam: Examination, beside: Beside | None) -> dict[Position, tuple[st
     return odd
 
 
-def _fails(
-    exam: Examination, role: str, k: int, expected: float | None, is_read: bool = False
-) -> bool:
+def _fails(exam: Examination, role: str, k: int, is_read: bool = False) -> bool:
     """Whether a cell does not hold what it should; `is_read` if another cell of the table reads it.
 
     A blank cell may end a column, unless it is read.
     """
     column, place = exam.rows.columns[role], exam.table.place(role, k)
-    value = column.get(k)
+    value, expected = column.get(k), exam.rows.wanted(role, k)
     if value is None:
         if expected is not None and not math.isfinite(expected):
             return False  # the right formula gives an error, too
@@ -356,10 +347,10 @@ def _is_text(exam: Examination, place: Position, k: int) -> bool:
     return (k > 0 and value != "") or is_spoiling(place, exam.calculation, exam.table.across)
 
 
-def _lone(exam: Examination, role: str, k: int, expected: float | None) -> tuple[str, str]:
+def _lone(exam: Examination, role: str, k: int) -> tuple[str, str]:
     """Return kind and explanation for a single cell that does not follow from those before it."""
     place, cell = exam.table.place(role, k), f"{title(role)} of row {k}"
-    value = exam.rows.columns[role].get(k)
+    value, expected = exam.rows.columns[role].get(k), exam.rows.wanted(role, k)
     typed = place not in exam.calculation.formulas
     kind = "typed number" if typed else "odd formula"
     if error := exam.calculation.error(place):
@@ -381,19 +372,16 @@ def _lone(exam: Examination, role: str, k: int, expected: float | None) -> tuple
     return kind, text
 
 
-def order(exam: Examination) -> None:
+def judge_order(exam: Examination) -> None:
     """Report columns whose last digits differ from every order of the report's operations.
 
     Nothing is reported if units are converted or another scheme is followed: that costs last
     digits, too.
     """
     factors = {entry.factor for entry in (*exam.inputs.values(), *exam.derived.values())}
-    converts = any(exam.powers.values()) or factors != {Fraction(1)}
-    if (
-        converts
-        or exam.rows.rules != REPORT
-        or any(_power(column.right) for column in _beside(exam))
-    ):
+    if any(exam.powers.values()) or factors != {Fraction(1)} or exam.rows.rules != REPORT:
+        return
+    if any(_power(column.right) for column in _beside(exam)):
         return
     # A mass that no cell holds is tried as any order of its product may give it.
     masses = [exam.case.mass]
@@ -408,22 +396,19 @@ def order(exam: Examination) -> None:
     for role in ("depth", "deceleration", "velocity_final") if shown else ("depth",):
         column = exam.rows.columns.get(role, {})
         rows = [k for k in column if k and exam.table.place(role, k) in computed
-                and not _fails(exam, role, k, exam.rows.wanted(role, k))]  # fmt: skip
+                and not _fails(exam, role, k)]  # fmt: skip
         by_mass = []
         for case in cases:
-            allowed = {k: _orders(exam, role, k, case) for k in rows}
-            by_mass.append(
-                {k: each for k, each in allowed.items() if each and column[k] not in each}
-            )
+            values = {k: _orders(exam, role, k, case) for k in rows}
+            by_mass.append({k: x for k, x in values.items() if x and column[k] not in x})
         if differing := min(by_mass, key=len):
-            k, allowed_there = next(iter(differing.items()))
-            value = column[k]
-            expected = min(allowed_there, key=lambda each: abs(each - value))
-            ulps = round(abs(expected - value) / math.ulp(expected))
-            text = (
-                f"the last digits of {len(differing)} of {len(rows)} cells of {title(role)}, here "
+            k, allowed = next(iter(differing.items()))
+            expected = min(allowed, key=lambda value: abs(value - column[k]))
+            ulps = round(abs(expected - column[k]) / math.ulp(expected))
+            text = f"the last digits of {len(differing)} of {len(rows)} cells of {title(role)}, "
+            text += (
+                f"here {ulps} ulp, are those of another order, on which no printed digit depends"
             )
-            text += f"{ulps} ulp, are those of another order, on which no printed digit depends"
             cells = [exam.table.place(role, row) for row in differing]
             exam.add("operation order", cells, exam.shown(role, expected), text)
 

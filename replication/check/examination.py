@@ -63,10 +63,8 @@ class Difference:
         cells = span(cell[1:] for cell in self.cells)
         if len(self.cells) != area or len(sheets) > 1:
             cells = f"{address(self.place)} and {count(len(self.cells) - 1, 'cell')} more"
-        expected, found = (
-            str(value).upper() if isinstance(value, bool) else value
-            for value in (self.expected, self.found)
-        )
+        values = self.expected, self.found
+        expected, found = (str(x).upper() if isinstance(x, bool) else x for x in values)
         return {
             "sheet": self.place[0], "cell": address(self.place), "kind": self.kind,
             "expected": expected, "found": found, "explanation": self.explanation,
@@ -192,10 +190,8 @@ class Examination:
         If `found` is not given, it is the value of that cell.
         """
         found = self.calculation.values.get(cells[0]) if found is None else found
-        difference = Difference(
-            kind, tuple(cells), expected, found, text, self.rank(cells[0]), change
-        )
-        self.differences.append(difference)
+        entry = kind, tuple(cells), expected, found, text, self.rank(cells[0]), change
+        self.differences.append(Difference(*entry))
 
     def line(self, part: str) -> Line:
         """Return the column in which a part of the scheme can be seen."""

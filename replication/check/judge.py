@@ -14,11 +14,12 @@ from statistics import median
 
 from reference.units import to_si
 from replication.check.cells import (
-    drifting,
-    each_cell,
+    Beside,
     irregular,
-    order,
-    units_beside,
+    judge_cells,
+    judge_heads_beside,
+    judge_order,
+    judge_references,
     wrong_beside,
 )
 from replication.check.examination import NEAR, Change, Difference, Examination, Input, near
@@ -68,7 +69,7 @@ def judge(exam: Examination, meant: tuple[str, float, str] | None = None) -> Non
     _units(exam)
     if not is_rounded:
         _blanks(exam)
-        drifting(exam)
+        judge_references(exam)
         _calibrate(exam)
         _derived(exam)
     if meant:
@@ -78,12 +79,12 @@ def judge(exam: Examination, meant: tuple[str, float, str] | None = None) -> Non
         _as_rounded(exam)
     else:
         _scheme(exam)
-        each_cell(exam)
+        judge_cells(exam)
         _taken_otherwise(exam)
         _typed_inputs(exam)
         _typed_numbers(exam)
-        units_beside(exam)
-        order(exam)
+        judge_heads_beside(exam)
+        judge_order(exam)
     _stop(exam)
     _effects(exam)
 
@@ -110,9 +111,7 @@ def _changed(role: str, value: float, by: float) -> Change:
 
 def _calibrate(exam: Examination) -> None:
     """Find inputs that the rows take in another unit than their labels state."""
-    drifts = any(difference.kind == "odd formula" for difference in exam.differences)
-    # Rows whose references drift do not tell the unit of an input.
-    if not drifts and exam.agreement(BRAKES) < 0.5 and not _has_power(exam):
+    if exam.agreement(BRAKES) < 0.5 and not _has_power(exam):
         untold = ("beta", "stop_velocity", "mass")
         entries = [e for e in exam.inputs.values() if e.place and e.role not in untold]
         powers = (-3, 3, -6, 6, -9, 9, -12, 12, -1, 1, -2, 2)
@@ -286,9 +285,9 @@ def _judge_radius(exam: Examination, cells: Sequence[Position]) -> None:
 
 def _product(exam: Examination, beta: Input, flow_stress: Input, stated: float) -> None:
     """Report a target resistance that is typed into the rows, or unlike beta times flow stress."""
-    used, cell = exam.inputs["resistance"], exam.derived.get("resistance")
-    if cell and _typed_factor(exam, cell, cell.si, stated, (beta, flow_stress)):
-        return  # the rows read it from its cell, whose formula is judged by itself
+    used = exam.inputs["resistance"]
+    if "resistance" in exam.derived:
+        return  # the rows read it from its cell, which is judged by itself
     typing = _typing(exam, used.si)
     if math.isclose(used.si, stated, rel_tol=1e-6):
         if used.how in ("formulas", "report") and typing and beta.place:
@@ -381,17 +380,7 @@ def _fault_of_derived(
     assert place is not None
     if fault := _typed_factor(exam, cell, in_si, wanted, sources):
         return fault
-    # Numbers that the formula has for pi, or for the factor of a unit such as ksi.
-    constants = {"pi": math.pi, **{f"a {s.unit}": float(s.factor) for s in sources if s.unit}}
-    typed = [
-        (name, constant, number)
-        for name, constant in constants.items()
-        for number in _as_typed(exam, place, constant)
-        if math.isclose(in_si / number * constant, wanted, rel_tol=NEAR)
-    ]
     is_right = math.isclose(in_si, wanted, rel_tol=NEAR)
-    # Tables print the factors of units with four digits or more.
-    is_right |= any(n != "pi" and math.isclose(c, t, rel_tol=1e-4) for n, c, t in typed)
     names, power = titles(source.role for source in sources), power_of_ten(in_si / wanted)
     if place not in exam.calculation.formulas:
         is_whole = len(sources) == len(RESTS_ON[role])  # one factor of two gives nothing
@@ -406,9 +395,9 @@ def _fault_of_derived(
         return "unit", f"is {times_too(power)} for {names}: a unit is not converted"
     if is_right:
         return None
-    if typed:
-        name, constant, number = typed[0]
-        return "typed constant", f"takes {number:.10g} for {name}, not {constant:.10g}"
+    for number in _typed_for_pi(exam, place):
+        if math.isclose(in_si / number * math.pi, wanted, rel_tol=NEAR):
+            return "typed constant", f"takes {number:.10g} for pi, not {math.pi:.10g}"
     text = f"does not follow from {names}" if in_si else "is 0; the report's is assumed"
     return "odd formula", text
 
@@ -430,22 +419,20 @@ def _typed_factor(
     return None
 
 
-def _as_typed(exam: Examination, place: Position, constant: float) -> Iterator[float]:
-    """Yield the numbers in a cell's formula that are a constant rounded to three digits or more.
+def _typed_for_pi(exam: Examination, place: Position) -> Iterator[float]:
+    """Yield the numbers in a cell's formula that are pi rounded to three digits or more.
 
     They may stand in cells that the formula reads, and include a power of ten that converts a unit.
     """
     cells = [area.corner for area in exam.calculation.areas(place) if area.cells == 1]
     formulas = filter(None, map(exam.calculation.formulas.get, (place, *cells)))
     typed = (number for formula in formulas for number in formula.literals)
-    numbers = [*typed, *map(exam.calculation.number, cells)]
-    for number in numbers if power_of_ten(constant) is None else ():
-        if number is None or number <= 0:
-            continue
-        power = round(math.log10(number / constant))
+    numbers = filter(None, [*typed, *map(exam.calculation.number, cells)])
+    for number in (number for number in numbers if number > 0):
+        power = round(math.log10(number / math.pi))
         value = scaled(number, Fraction(10) ** -power)
         digits, _ = digits_of(value)
-        if digits >= 3 and value == float(f"{constant:.{digits - 1}e}"):
+        if digits >= 3 and value == float(f"{math.pi:.{digits - 1}e}"):
             yield value
 
 
@@ -575,12 +562,11 @@ def _typed_numbers(exam: Examination) -> None:
     for role, names in rests_on.items():
         if role not in roles:
             continue
-        place, sources = cells[role][0], [exam.inputs[name].place for name in names]
-        known = [cell for cell in sources if cell and cell not in exam.table.places]
+        place, sources = cells[role][0], [exam.inputs[name] for name in names]
+        have_cells = all(s.place and s.place not in exam.table.places for s in sources)
         is_typed = place not in formulas and exam.table.place(role, 2) in formulas
-        is_number = exam.calculation.number(place) and place not in exam.accused
-        if known == sources and is_typed and is_number:
-            lost = " or ".join(address(cell, cell[0] != place[0]) for cell in known)
+        if have_cells and is_typed and place not in exam.accused and exam.calculation.number(place):
+            lost = " or ".join(_where(source, place) for source in sources)
             text = f"it is typed as a number: a change of {lost} is lost here"
             exam.add("typed number", [place], None, text)
     texts = exam.calculation.texts
@@ -619,7 +605,7 @@ def _scheme(exam: Examination) -> None:
     if exam.follows("start", REPORT["start"], 1) is False:  # None if there is no velocity
         starts = (rule for rule in KNOWN["start"] if exam.follows("start", rule, 1))
         chosen["start"] = next(starts, REPORT["start"])
-    unknown = []
+    unknown, columns = [], exam.table.every_line
     # Without a column for the deceleration, the brake is judged by the velocity that it gives.
     parts = ["advance", "brake", "end"][: 3 if "deceleration" in exam.table.lines else 2]
     for part in parts:
@@ -635,7 +621,7 @@ def _scheme(exam: Examination) -> None:
         # A fault reported before may explain why the rows do not follow.
         place = exam.table.place(*exam.rows.shows(part, 3))
         read = {place, *(area.corner for area in exam.calculation.areas(place))} & exam.accused
-        is_explained = any(line.covers(cell) for cell in read for line in exam.table.every_line)
+        is_explained = any(column.covers(cell) for cell in read for column in columns)
         if is_mixed or (is_explained and (best != published or shares[best] < 0.5)):
             continue
         if shares[best] < 0.5:
@@ -664,8 +650,9 @@ def _accuse(exam: Examination, unknown: Sequence[str] = ()) -> None:
         if role == filled:
             wanted = replace(exam.rows, rules=REPORT).wanted(role, shown_in)
             expected = exam.shown(role, wanted)
+        beside = wrong_beside(exam) if part == "brake" else None
         if part in unknown:
-            kind, text, line = _cause(exam, part)
+            kind, text, line = _cause(exam, part, beside)
             if not line.covers(cells[0]):  # a column beside the table, which it reads
                 rows, expected = range(first, exam.table.steps + 1), None
                 cells = [*(line.place(exam.table.zero + k) for k in rows), *cells]
@@ -673,38 +660,37 @@ def _accuse(exam: Examination, unknown: Sequence[str] = ()) -> None:
             continue
         rule = exam.rows.rules[part]
         cells = cells[:1] if part == "start" else cells
-        if part == "brake" and (beside := wrong_beside(exam)):
+        if beside:
             cells, expected = [*beside.cells.values()], None
         text = f"{rule.name}: {rule.says}"
         exam.add("other scheme", cells, expected, text, change={part: rule})
 
 
-def _cause(exam: Examination, part: str) -> tuple[str, str, Line]:
+def _cause(exam: Examination, part: str, beside: Beside | None) -> tuple[str, str, Line]:
     """Explain a column that follows no known rule: return kind, explanation and column at fault.
 
-    The step or the force may be off by a constant factor in every row.
+    The step or the force may be off by a constant factor in every row. `beside` is the column
+    beside the table that makes decelerations wrong, if there is one.
     """
-    beside = wrong_beside(exam) if part == "brake" else None
     column = beside.line if beside else exam.line(part)
     rows = range(PARTS[part][1], exam.table.steps + 1)
     ratios = [ratio for k in rows if (ratio := _ratio(exam, part, k)) is not None]
     ratio = median(ratios) if ratios else 0.0
-    if not ratio or sum(near(each, ratio) for each in ratios) < 0.5 * len(ratios):
+    if not ratio or sum(near(value, ratio) for value in ratios) < 0.5 * len(ratios):
         for slip in (3, -3, 6, -6) if part == "brake" else ():
             if exam.share(part, depth_times_ten(slip)) >= 0.9:
                 text = f"the contact area takes the depth as {times_too(slip)}: a unit is not"
                 return "unit", f"{text} converted rightly", column
         text = "these cells follow no scheme that this program knows"
         return "other scheme", beside.says if beside else text, column
-    quantity_off, slips, constants = "step", dict[str, float](), {"the time step": exam.case.step}
+    name, slips, constants = "step", dict[str, float](), {"the time step": exam.case.step}
     if part == "brake":
-        quantity_off, constants = "force", {"pi": math.pi, "the mass": exam.case.mass}
+        name, constants = "force", {"pi": math.pi, "the mass": exam.case.mass}
         slips = {"pi is missing in the force": 1 / math.pi,
                  "the force is not divided by the mass": exam.case.mass}  # fmt: skip
     if power := power_of_ten(ratio):
-        text = f"every {quantity_off} is {times_too(power)}: a unit is not converted"
-        return "unit", text, column
-    slips[f"every {quantity_off} has the other sign"] = -1.0
+        return "unit", f"every {name} is {times_too(power)}: a unit is not converted", column
+    slips[f"every {name} has the other sign"] = -1.0
     if named := next((text for text, value in slips.items() if near(ratio, value)), ""):
         return "other scheme", named, column
     for line, (constant, value) in product((column, *exam.table.helpers), constants.items()):
@@ -716,8 +702,7 @@ def _cause(exam: Examination, part: str) -> tuple[str, str, Line]:
     fraction = Fraction(ratio).limit_denominator(8)
     named = f"{fraction}" if near(fraction, ratio) else f"{ratio:.6g}"
     named = f"{ratio:.10g}" if named == "1" else named
-    text = f"every {quantity_off} is {named} times that of the report's scheme"
-    return "other scheme", text, column
+    return "other scheme", f"every {name} is {named} times that of the report's scheme", column
 
 
 def _ratio(exam: Examination, part: str, k: int) -> float | None:
@@ -737,7 +722,8 @@ def _as_rounded(exam: Examination) -> None:
     """Judge a table of typed, rounded numbers by whole runs of the scheme that fits it best."""
     # The report's own table may stand beside a sheet with other inputs.
     report = {role: values[0] for role, values in report_inputs().items()}
-    printed = Case(**{each.name: report[each.name] for each in fields(Case) if each.name in report})
+    names = [field.name for field in fields(Case) if field.name in report]
+    printed = Case(**{name: report[name] for name in names})
     if not any(_misprints(exam, march(printed, steps=exam.table.steps))):
         exam.intended, exam.rows = printed, replace(exam.rows, case=printed)
 
@@ -811,8 +797,8 @@ def _stop(exam: Examination) -> None:
     # out. An excerpt has few rows, none of which is called the final depth. But rows that end
     # shortly before the report's stop were ended at another velocity.
     is_changed = any(d.kind == "other input" or callable(d.change) for d in exam.differences)
-    cases = [replace(case, resistance=each) for each in report_inputs()["resistance"]]
-    is_prepared = any(max(march(each, rows.rules)["depth"]) == steps for each in cases)
+    cases = [replace(case, resistance=value) for value in report_inputs()["resistance"]]
+    is_prepared = any(max(march(case, rows.rules)["depth"]) == steps for case in cases)
     place = exam.table.place(role, steps)
     results = (result.place for result in exam.table.results if result.kind == "depth")
     areas = (area for result in results for area in exam.calculation.areas(result))

@@ -73,7 +73,7 @@ def _judge_columns(exam: Examination) -> None:
         factor = median(factors) if factors else 0.0
         cells = [line.place(exam.table.zero + k) for k in depths]
         read = {area.corner for cell in cells for area in exam.calculation.areas(cell)}
-        is_rounded = sum(near(each, factor) for each in factors) <= 0.5 * len(factors)
+        is_rounded = sum(near(value, factor) for value in factors) <= 0.5 * len(factors)
         if is_rounded or read & exam.accused:
             continue
         power = power_of_ten(factor)
@@ -109,9 +109,9 @@ def _accuse(tables: Sequence[Examination], result: Result, named: Mapping[str, f
     (exam,) = read
     if stops_elsewhere(exam) or result.place in exam.calculation.unknown:
         return False
-    meant = [each for each in tables if all(has_input(each, *item) for item in named.items())]
-    of_label = [each.place for each in exam.table.labelled if each.label == result.label]
-    if result.where == "beyond" and sum(map(exam.table.gives_depth, of_label)) == 1:
+    meant = [table for table in tables if all(has_input(table, *pair) for pair in named.items())]
+    in_row = [other.place for other in exam.table.labelled if other.label == result.label]
+    if result.where == "beyond" and sum(map(exam.table.gives_depth, in_row)) == 1:
         result = result._replace(where="first")  # it is the only one of its table in this row
     unlike = next((role for role in named if not has_input(exam, role, named[role])), None)
     fault = _fault(exam, result, unlike, meant[0] if len(meant) == 1 else exam)
@@ -158,7 +158,7 @@ def _fault(
     if depths[row] == max(depths.values()) and "last" in exam.table.readers[place]:
         row = last  # another row has the largest depth only because the table has gone wrong
     if unlike and meant is not exam:
-        taken, named = (quantity(_number(each, unlike), unlike) for each in (exam, meant))
+        taken, named = (quantity(_number(table, unlike), unlike) for table in (exam, meant))
         text = f"{what} reads the table where {title(unlike)} is {taken}; its label says {named}"
         return "odd formula", expected, text, formula
     if row != last:
@@ -214,8 +214,8 @@ def _named_beside(
     values, named = tables[0].calculation.values, dict[Position, dict[str, float]]()
     beside = {result.place: _numbers_beside(values, result) for result in group}
     for role in sorted({role for numbers in beside.values() for role in numbers}):
-        numbers = {place: found[role] for place, found in beside.items() if role in found}
-        if all(any(has_input(exam, role, each) for exam in tables) for each in numbers.values()):
+        numbers = {place: inputs[role] for place, inputs in beside.items() if role in inputs}
+        if all(any(has_input(exam, role, x) for exam in tables) for x in numbers.values()):
             for place, number in numbers.items():
                 named.setdefault(place, {})[role] = number
     distinct = {tuple(numbers.items()) for numbers in named.values()}
@@ -253,7 +253,6 @@ def _number(exam: Examination, role: str) -> float:
     """Return an input of the intended case, beta as resistance over flow stress; 0 if unknown."""
     if role == "beta":
         stress = exam.inputs.get("flow_stress")
-        return exam.intended.resistance / (
-            stress.si if stress else report_inputs()["flow_stress"][0]
-        )
+        flow_stress = stress.si if stress else report_inputs()["flow_stress"][0]
+        return exam.intended.resistance / flow_stress
     return float(getattr(exam.intended, role, 0.0))

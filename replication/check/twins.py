@@ -34,10 +34,10 @@ def meant(
     by_any = by_tables | {area.corner for formula in formulas for area in formula.areas}
     # A formula that reads a single cell only shows it, as summaries do. So does a product of beta
     # and flow stress that is itself not used.
-    several = [formula for formula in formulas if len(formula.areas) > 1]
+    several = {f.place: f.areas for f in formulas if len(f.areas) > 1}
     products = {cell.place for cell in beside if cell.roles == {"resistance"}}
-    by_most = by_tables | {a.corner for f in several if f.place not in products for a in f.areas}
-    by_most |= {a.corner for f in several if f.place in products & by_most for a in f.areas}
+    by_most = by_tables | {area.corner for p in several.keys() - products for area in several[p]}
+    by_most |= {area.corner for p in several.keys() & products & by_most for area in several[p]}
     for role, names in _LABELS.items():
         read = by_most if role == "resistance" else by_any
         labelled = ((cell, name) for name in names for cell in beside if cell.roles == {name})
