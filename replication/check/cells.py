@@ -52,9 +52,8 @@ def judge_references(exam: Examination) -> None:
             if moves and strays and number(read[0]) is not None:
                 cells = [formula.place for formula in alike[1 - len(read) :]]
                 right, wrong = (address(place, place[0] != line.sheet) for place in read[:2])
-                along, across = ("row", "column") if line.across else ("column", "row")
-                text = f"its {along} reads {right}, which no $ fixes: this {across} reads {wrong}"
-                text += ", and so on"
+                text = f"the reference to {right} is not fixed by a $: this "
+                text += f"{'column' if line.across else 'row'} reads {wrong}, and so on"
                 exam.add("odd formula", cells, None, text, exam.calculation.book[cells[0]].formula)
 
 
@@ -88,16 +87,16 @@ def _beside(exam: Examination) -> Iterator[Beside]:
             areas[k], pressures[k] = (force / pressure, area), (force / area, pressure)
             forces[k] = force, pressure * area
     quantities = (
-        ("area", "of the contact at the depth", "m^2", areas),
-        ("pressure", "at the velocity", "Pa", pressures),
-        ("force", "at the depth and the velocity", "N", forces),
+        ("area", "the depth", "m^2", areas),
+        ("pressure", "the velocity", "Pa", pressures),
+        ("force", "the depth and the velocity", "N", forces),
     )
-    for (name, of, dimension, values), line in product(quantities, exam.table.helpers):
+    for (name, sources, dimension, values), line in product(quantities, exam.table.helpers):
         numbers = {k: number for k in values if (number := line.at(exam.table.zero + k))}
         if len(numbers) >= LEAST:
             implied, right = ({k: values[k][i] / x for k, x in numbers.items()} for i in (0, 1))
             cells = {k: line.place(exam.table.zero + k) for k in right if not near(*values[k])}
-            says = f"this {name} is not that {of} of its row"
+            says = f"this {name} does not follow from {sources} of its row"
             yield Beside(line, name, says, dimension, implied, right, cells)
 
 
@@ -405,10 +404,9 @@ def judge_order(exam: Examination) -> None:
             k, allowed = next(iter(differing.items()))
             expected = min(allowed, key=lambda value: abs(value - column[k]))
             ulps = round(abs(expected - column[k]) / math.ulp(expected))
-            text = f"the last digits of {len(differing)} of {len(rows)} cells of {title(role)}, "
-            text += (
-                f"here {ulps} ulp, are those of another order, on which no printed digit depends"
-            )
+            text = f"the last digits of {len(differing)} of {len(rows)} cells of {title(role)} "
+            text += f"differ, here by {ulps} ulp: another order of operations, "
+            text += "on which no printed digit depends"
             cells = [exam.table.place(role, row) for row in differing]
             exam.add("operation order", cells, exam.shown(role, expected), text)
 

@@ -36,7 +36,7 @@ from replication.check.scheme import (
     depth_times_ten,
     march,
 )  # fmt: skip
-from replication.check.table import ROUNDED, Line, address
+from replication.check.table import ROUNDED, address
 from replication.check.words import (
     INPUTS,
     between_units,
@@ -179,7 +179,7 @@ def _unconverted(exam: Examination, entry: Input, value: float, power: int) -> N
     If its label has a unit, this accuses the cell that should convert it, or the formulas that read
     it; otherwise the input's own cell.
     """
-    calculation, places = exam.calculation, exam.table.places
+    calculation = exam.calculation
     product_cell = exam.derived.get("resistance")
     if product_cell and product_cell.unit and entry.role in RESTS_ON["resistance"]:
         number = calculation.number(product_cell.place) or 0.0
@@ -192,15 +192,13 @@ def _unconverted(exam: Examination, entry: Input, value: float, power: int) -> N
     expected: float | None = scaled(entry.si, Fraction(10) ** -power / entry.factor)
     text = f"the formulas take {title(entry.role)} as {quantity(value, entry.role)}, "
     text += times_too(power)
-    ranked = sorted(exam.read | places.keys(), key=exam.rank)
+    ranked = sorted(exam.read | exam.table.places.keys(), key=exam.rank)
     readers = [p for p in ranked if any(a.corner == entry.place for a in calculation.areas(p))]
     if entry.unit and readers:
         text += f": {address(entry.place)} is in {entry.unit}"
-        columns = {place: places.get(place, ("",))[0] for place in readers}
         lone = (place for place in readers if len(calculation.areas(place)) == 1)
         converting = [p for p in lone if near(calculation.number(p) or 0.0, value)]
-        cells = [place for place in readers if columns[place] == columns[readers[0]]]
-        cells, expected = (converting[:1], entry.si) if converting else (cells, None)
+        cells, expected = (converting[:1], entry.si) if converting else (readers, None)
     change = _changed(entry.role, value, 10.0**power)
     exam.add("unit", cells, expected, text, change=change)
 
@@ -499,7 +497,7 @@ def _taken_otherwise(exam: Examination) -> None:
 
 def _typed_inputs(exam: Examination) -> None:
     """Report inputs whose value is typed into formulas that do not read their cell."""
-    accused, reported = exam.accused, set[tuple[str, Position]]()
+    accused = exam.accused
     columns = [(role, exam.cells(role, 0)) for role in exam.table.lines]
     columns += [("", line.cells) for line in exam.table.helpers]
     columns += [("", [r.place]) for r in exam.table.results if exam.table.gives_depth(r.place)]
@@ -510,8 +508,7 @@ def _typed_inputs(exam: Examination) -> None:
                  if place not in accused and _typed_in(exam, entry, role, k, place)]  # fmt: skip
         # A number in only a few of many formulas is their own, such as the number of the row.
         is_usual = len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2])
-        if is_usual and (entry.role, cells[0]) not in reported:
-            reported.add((entry.role, cells[0]))
+        if is_usual:
             _lost(exam, entry.role, cells, entry)
 
 
@@ -615,7 +612,7 @@ def _scheme(exam: Examination) -> None:
             shares |= {rule: exam.share(part, rule) for rule in others}
         best = max(shares, key=lambda rule: shares[rule])
         # If the formulas of some rows are right, the wrong ones are found one by one.
-        beside = wrong_beside(exam) if part == "brake" and best != BEYOND else None
+        beside = wrong_beside(exam) if part == "brake" else None
         line = beside.line if beside else exam.line(part)
         is_mixed = _MIXED <= shares[published] < shares[best] and any(irregular(line, exam.table))
         # A fault reported before may explain why the rows do not follow.
@@ -652,10 +649,10 @@ def _accuse(exam: Examination, unknown: Sequence[str] = ()) -> None:
             expected = exam.shown(role, wanted)
         beside = wrong_beside(exam) if part == "brake" else None
         if part in unknown:
-            kind, text, line = _cause(exam, part, beside)
-            if not line.covers(cells[0]):  # a column beside the table, which it reads
+            kind, text = _cause(exam, part, beside)
+            if beside:
                 rows, expected = range(first, exam.table.steps + 1), None
-                cells = [*(line.place(exam.table.zero + k) for k in rows), *cells]
+                cells = [*(beside.line.place(exam.table.zero + k) for k in rows), *cells]
             exam.add(kind, cells, expected, text)
             continue
         rule = exam.rows.rules[part]
@@ -666,43 +663,43 @@ def _accuse(exam: Examination, unknown: Sequence[str] = ()) -> None:
         exam.add("other scheme", cells, expected, text, change={part: rule})
 
 
-def _cause(exam: Examination, part: str, beside: Beside | None) -> tuple[str, str, Line]:
-    """Explain a column that follows no known rule: return kind, explanation and column at fault.
+def _cause(exam: Examination, part: str, beside: Beside | None) -> tuple[str, str]:
+    """Return kind and explanation for a column that follows no known rule.
 
     The step or the force may be off by a constant factor in every row. `beside` is the column
     beside the table that makes decelerations wrong, if there is one.
     """
-    column = beside.line if beside else exam.line(part)
     rows = range(PARTS[part][1], exam.table.steps + 1)
     ratios = [ratio for k in rows if (ratio := _ratio(exam, part, k)) is not None]
     ratio = median(ratios) if ratios else 0.0
     if not ratio or sum(near(value, ratio) for value in ratios) < 0.5 * len(ratios):
         for slip in (3, -3, 6, -6) if part == "brake" else ():
             if exam.share(part, depth_times_ten(slip)) >= 0.9:
-                text = f"the contact area takes the depth as {times_too(slip)}: a unit is not"
-                return "unit", f"{text} converted rightly", column
+                text = f"the contact area takes a depth {times_too(slip)}"
+                return "unit", f"{text}: a unit is converted wrongly"
         text = "these cells follow no scheme that this program knows"
-        return "other scheme", beside.says if beside else text, column
+        return "other scheme", beside.says if beside else text
     name, slips, constants = "step", dict[str, float](), {"the time step": exam.case.step}
     if part == "brake":
         name, constants = "force", {"pi": math.pi, "the mass": exam.case.mass}
         slips = {"pi is missing in the force": 1 / math.pi,
                  "the force is not divided by the mass": exam.case.mass}  # fmt: skip
     if power := power_of_ten(ratio):
-        return "unit", f"every {name} is {times_too(power)}: a unit is not converted", column
+        return "unit", f"every {name} is {times_too(power)}: a unit is not converted"
     slips[f"every {name} has the other sign"] = -1.0
     if named := next((text for text, value in slips.items() if near(ratio, value)), ""):
-        return "other scheme", named, column
-    for line, (constant, value) in product((column, *exam.table.helpers), constants.items()):
-        formulas = filter(None, map(line.calculation.formulas.get, line.cells))
-        for number in sorted({abs(n) for formula in formulas for n in formula.literals} - {0.0}):
-            # A smaller mass makes the deceleration larger.
-            if near(value / number if constant == "the mass" else number / value, ratio):
-                return "typed constant", f"{constant} is typed as {number:.10g}", line
+        return "other scheme", named
+    column = beside.line if beside else exam.line(part)
+    formulas = filter(None, map(exam.calculation.formulas.get, column.cells))
+    numbers = sorted({abs(x) for formula in formulas for x in formula.literals} - {0.0})
+    for (constant, value), number in product(constants.items(), numbers):
+        # A smaller mass makes the deceleration larger.
+        if near(value / number if constant == "the mass" else number / value, ratio):
+            return "typed constant", f"{constant} is typed as {number:.10g}"
     fraction = Fraction(ratio).limit_denominator(8)
     named = f"{fraction}" if near(fraction, ratio) else f"{ratio:.6g}"
     named = f"{ratio:.10g}" if named == "1" else named
-    return "other scheme", f"every {name} is {named} times that of the report's scheme", column
+    return "other scheme", f"every {name} is {named} times that of the report's scheme"
 
 
 def _ratio(exam: Examination, part: str, k: int) -> float | None:
