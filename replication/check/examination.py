@@ -132,8 +132,8 @@ class Examination:
     def follows(self, part: str, rule: Rule, k: int) -> bool | None:
         """Whether row k follows a rule; None if cells are missing."""
         rows = replace(self.rows, rules=REPORT | {part: rule})
-        role, shown_in = rows.shows(part, k)
-        wanted, value = rows.wanted(role, shown_in), rows(role, shown_in)
+        role, row = rows.shows(part, k)
+        wanted, value = rows.wanted(role, row), rows(role, row)
         if wanted is None or value is None:
             return None
         tolerance = NEAR if self.table.digits is None else 10.0 ** (2 - self.table.digits)

@@ -66,12 +66,12 @@ def judge(exam: Examination, meant: tuple[str, float, str] | None = None) -> Non
     in SI units, and a text that says where it stands.
     """
     is_rounded = exam.table.digits is not None
-    _units(exam)
+    _units_of_heads(exam)
     if not is_rounded:
-        _blanks(exam)
+        _blank_inputs(exam)
         judge_references(exam)
-        _calibrate(exam)
-        _derived(exam)
+        _units_of_inputs(exam)
+        _derived_inputs(exam)
     if meant:
         _repeated(exam, *meant)
     _other_inputs(exam)
@@ -85,14 +85,14 @@ def judge(exam: Examination, meant: tuple[str, float, str] | None = None) -> Non
         _typed_numbers(exam)
         judge_heads_beside(exam)
         judge_order(exam)
-    _stop(exam)
+    _end_of_rows(exam)
     _effects(exam)
 
 
 # ---- units and inputs: what the workbook states, and what its formulas make of them
 
 
-def _units(exam: Examination) -> None:
+def _units_of_heads(exam: Examination) -> None:
     """Report heads whose unit contradicts the numbers of their column."""
     for role, line in exam.table.lines.items():
         named, power = unit_power(line.unit), exam.powers[role]
@@ -109,7 +109,7 @@ def _changed(role: str, value: float, by: float) -> Change:
     return partial(Case.with_input, role=role, value=value, by=by)
 
 
-def _calibrate(exam: Examination) -> None:
+def _units_of_inputs(exam: Examination) -> None:
     """Find inputs that the rows take in another unit than their labels state."""
     if exam.agreement(BRAKES) < 0.5 and not _has_power(exam):
         untold = ("beta", "stop_velocity", "mass")
@@ -211,10 +211,10 @@ def _has_power(exam: Examination) -> bool:
         if cell is None or cell.unit or any(s.place is None or s.factor != 1 for s in sources):
             continue
         number, wanted = exam.calculation.number(cell.place) or 0.0, getattr(exam.intended, role)
-        power, changed = power_of_ten(number / wanted), exam.case.holding(role, number)
-        following = exam.following(changed)
-        if sources and cell.place and power and following.agreement(BRAKES) >= 0.9:
-            exam.rows = following.rows
+        power = power_of_ten(number / wanted)
+        changed = exam.following(exam.case.holding(role, number))
+        if sources and cell.place and power and changed.agreement(BRAKES) >= 0.9:
+            exam.rows = changed.rows
             text = f"{title(role)} is {times_too(power)} for {titles(names)}"
             change = partial(Case.holding, role=role, value=number)
             exam.add("unit", [cell.place], wanted, text, change=change)
@@ -222,7 +222,7 @@ def _has_power(exam: Examination) -> bool:
     return False
 
 
-def _derived(exam: Examination) -> None:
+def _derived_inputs(exam: Examination) -> None:
     """Compare the workbook's mass, diameter and resistance with the inputs that they rest on."""
     known = {entry.role: entry for entry in (*exam.unread, *exam.inputs.values())}
     is_spoilt = any(difference.change for difference in exam.differences)
@@ -230,7 +230,8 @@ def _derived(exam: Examination) -> None:
     beta, flow_stress = (known.get(name) for name in RESTS_ON["resistance"])
     if beta and flow_stress and min(beta.si, flow_stress.si) > 0:
         stated = replace(stated, resistance=beta.si * flow_stress.si)
-        _product(exam, beta, flow_stress, stated.resistance)
+        if "resistance" not in exam.derived:  # no cell that the rows read it from
+            _judge_resistance(exam, beta, flow_stress, stated.resistance)
     chain = _radius_from_diameter(exam, known["radius"])
     for role, names in RESTS_ON.items():
         cell, sources = exam.derived.get(role), [known[name] for name in names if name in known]
@@ -281,15 +282,13 @@ def _judge_radius(exam: Examination, cells: Sequence[Position]) -> None:
     exam.add(kind, [place], scaled(diameter.si, 1 / factor), text, change=change)
 
 
-def _product(exam: Examination, beta: Input, flow_stress: Input, stated: float) -> None:
+def _judge_resistance(exam: Examination, beta: Input, flow_stress: Input, stated: float) -> None:
     """Report a target resistance that is typed into the rows, or unlike beta times flow stress."""
     used = exam.inputs["resistance"]
-    if "resistance" in exam.derived:
-        return  # the rows read it from its cell, which is judged by itself
-    typing = _typing(exam, used.si)
+    typing = _cells_with_typed(exam, used.si)
     if math.isclose(used.si, stated, rel_tol=1e-6):
         if used.how in ("formulas", "report") and typing and beta.place:
-            _lost(exam, "resistance", typing, beta)
+            _report_typed(exam, "resistance", typing, beta)
     elif used.how in ("rows", "formulas", "report"):
         cells = typing or exam.cells(*exam.rows.shows("brake", 1))
         taken, times = quantity(used.si, "resistance"), f"{used.si / flow_stress.si:.6g}"
@@ -301,7 +300,7 @@ def _product(exam: Examination, beta: Input, flow_stress: Input, stated: float) 
         exam.add("typed constant", cells, None, text, formula, change)
 
 
-def _typing(exam: Examination, value: float) -> list[Position]:
+def _cells_with_typed(exam: Examination, value: float) -> list[Position]:
     """Return the cells of the first column that has a number typed into most of its formulas.
 
     The number may be typed in another unit if it has more than one digit: 0.5 need not be a 5.
@@ -319,7 +318,7 @@ def _typing(exam: Examination, value: float) -> list[Position]:
     return []
 
 
-def _lost(exam: Examination, role: str, cells: Sequence[Position], source: Input) -> None:
+def _report_typed(exam: Examination, role: str, cells: Sequence[Position], source: Input) -> None:
     """Report an input's value typed into formulas, so that a change of its own cell is lost."""
     column, _ = exam.table.places.get(cells[0], ("", 0))
     column = title(column) if column else "the column of " * (len(cells) > 1) + address(cells[0])
@@ -465,7 +464,7 @@ def _other_inputs(exam: Examination) -> None:
             kind, text = "unit", f"{text}: a factor of 1e{abs(power)}"
             change = _changed(role, entry.si, entry.si / nearest)
             exam.intended = exam.intended.with_input(role, nearest, nearest / entry.si)
-        typed = _typing(exam, entry.si) if entry.how == "formulas" else []
+        typed = _cells_with_typed(exam, entry.si) if entry.how == "formulas" else []
         place = entry.place or next(iter(typed), exam.table.place("depth", 1))
         solved = entry.si if entry.place is None else None
         exam.add(kind, [place], scaled(nearest, 1 / entry.factor), text, solved, change)
@@ -484,7 +483,7 @@ def _taken_otherwise(exam: Examination) -> None:
         differs = not math.isclose(used.si, entry.si, rel_tol=1e-6)
         if min(used.si, entry.si) <= 0 or not differs:
             continue
-        cells = [exam.start] if entry.role == "velocity" else _typing(exam, used.si)
+        cells = [exam.start] if entry.role == "velocity" else _cells_with_typed(exam, used.si)
         cells = cells or [entry.place or exam.table.place("depth", 1)]
         stated, taken = (quantity(value, entry.role) for value in (entry.si, used.si))
         text = f"{title(entry.role)} is {stated} in {_where(entry, cells[0])}, "
@@ -509,7 +508,7 @@ def _typed_inputs(exam: Examination) -> None:
         # A number in only a few of many formulas is their own, such as the number of the row.
         is_usual = len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2])
         if is_usual:
-            _lost(exam, entry.role, cells, entry)
+            _report_typed(exam, entry.role, cells, entry)
 
 
 def _typed_in(exam: Examination, entry: Input, role: str, k: int, place: Position) -> bool:
@@ -572,7 +571,7 @@ def _typed_numbers(exam: Examination) -> None:
         exam.add("typed number", [place], float(texts[place]), text, repr(texts[place]))
 
 
-def _blanks(exam: Examination) -> None:
+def _blank_inputs(exam: Examination) -> None:
     """Report blank cells that a label calls an input, if the rows take them for 0."""
     values, blanks, case = exam.calculation.values, dict[Position, str](), exam.case
     for sheet, row, column in sorted(exam.read - values.keys()):
@@ -642,10 +641,10 @@ def _accuse(exam: Examination, unknown: Sequence[str] = ()) -> None:
         filled, first = PARTS[part]
         judged = range(first, exam.table.steps)
         first = next((k for k in judged if not exam.follows(part, REPORT[part], k)), first)
-        role, shown_in = exam.rows.shows(part, first)
-        cells, expected = exam.cells(role, shown_in), None
+        role, row = exam.rows.shows(part, first)
+        cells, expected = exam.cells(role, row), None
         if role == filled:
-            wanted = replace(exam.rows, rules=REPORT).wanted(role, shown_in)
+            wanted = replace(exam.rows, rules=REPORT).wanted(role, row)
             expected = exam.shown(role, wanted)
         beside = wrong_beside(exam) if part == "brake" else None
         if part in unknown:
@@ -705,10 +704,10 @@ def _cause(exam: Examination, part: str, beside: Beside | None) -> tuple[str, st
 def _ratio(exam: Examination, part: str, k: int) -> float | None:
     """Return what row k adds to the row before, over what it would add by the report's rule."""
     rows = replace(exam.rows, rules=REPORT)
-    role, shown_in = rows.shows(part, k)
+    role, row = rows.shows(part, k)
     starts = {"deceleration": 0.0, "depth": rows("depth", k - 1)}
     start = starts.get(role, rows("velocity_initial", k))
-    actual, wanted = rows(role, shown_in), rows.wanted(role, shown_in)
+    actual, wanted = rows(role, row), rows.wanted(role, row)
     if start is None or actual is None or wanted is None or wanted == start:
         return None
     ratio = (actual - start) / (wanted - start)
@@ -765,7 +764,7 @@ def _misprints(
 # ---- the stop, and what the differences do to the final depth
 
 
-def _stop(exam: Examination) -> None:
+def _end_of_rows(exam: Examination) -> None:
     """Report rows that do not end with the first final velocity below the stop velocity."""
     steps, rows, case = exam.table.steps, exam.rows, exam.case
     finals = {k: v for k in range(1, steps + 1) if (v := rows("velocity_final", k)) is not None}
@@ -778,8 +777,7 @@ def _stop(exam: Examination) -> None:
     role = "velocity_final" if "velocity_final" in exam.table.lines else "velocity_initial"
     end, stop = f"{finals[max(finals)]:.4g} m/s", f"the stop at {case.stop_velocity:g} m/s"
     if below is not None:
-        guarded = exam.calculation.book[exam.table.place(role, below)].formula or ""
-        if "IF(" not in guarded.upper() and _end_as_shown(exam, below, planned):
+        if _end_as_shown(exam, below, planned):
             return
         text = f"other stop: the rows end at {end}, after {stop}"
         exam.add("other scheme", exam.cells(role, below + 1), None, text, change=OTHER_STOP)

@@ -264,14 +264,6 @@ BRAKES = (
          "the drag is taken at the initial velocity of the row before"),
 )  # fmt: skip
 
-STARTS = (
-    Rule("half step", lambda r, k: r["velocity_initial", k] * (r.case.step / 2)),
-    Rule("no half step", lambda r, k: r["velocity_initial", k] * r.case.step,
-         "the first depth is V times the whole step; the report takes half of it"),
-    Rule("starts at zero", lambda *_: 0.0,
-         "the first step leaves the depth at zero; the report takes V times half a step"),
-)  # fmt: skip
-
 
 def _advance(name: str, speed: Callable[[Rows, int], float], says: str = "") -> Rule:
     """Make a rule that adds a velocity times the step to the depth of the row before."""
@@ -290,41 +282,47 @@ def _mean(rows: Rows, k: int) -> float:
     return (rows["velocity_initial", k] + rows["velocity_final", k]) / 2
 
 
-ADVANCES = (
-    _advance("initial velocity", lambda r, k: r["velocity_initial", k]),
-    _advance("explicit Euler", lambda r, k: r["velocity_initial", k - 1],
-             "the depth moves on by the initial velocity of the row before"),
-    _advance("impact velocity", lambda r, _: r.case.velocity,
-             "the depth moves on by the impact velocity in every row"),
-    _advance("final velocity", lambda r, k: r["velocity_final", k],
-             "the depth moves on by the velocity at the end of the row"),
-    _advance("mean velocity", _mean,
-             "the depth moves on by the mean of the row's two velocities"),
-    _advance("mean velocity of the row before", lambda r, k: _mean(r, k - 1),
-             "the depth moves on by the mean of the velocities of the row before"),
-    _by_time(0.0), _by_time(0.5), _by_time(1.0),
-    Rule("half a step alone", lambda r, k: r["velocity_initial", k] * (r.case.step / 2),
-         "each depth is that of half a step; no row adds to the one before"),
-    _advance("half steps throughout", lambda r, k: r["velocity_initial", k] / 2,
-             "every step moves the depth by half a step only"),
-)  # fmt: skip
-
-
 def _by_energy(rows: Rows, k: int) -> float:
     v, way = rows["velocity_initial", k], rows["depth", k] - rows["depth", k - 1]
     return math.sqrt(max(v * v - 2 * rows["deceleration", k] * way, 0.0))
 
 
-ENDINGS = (
-    Rule("whole step",
-         lambda r, k: r["velocity_initial", k] - r["deceleration", k] * r.case.step),
-    Rule("half a step",
-         lambda r, k: r["velocity_initial", k] - r["deceleration", k] * (r.case.step / 2),
-         "the velocity falls by the deceleration times half a step only"),
-    Rule("by energy", _by_energy, "the velocity follows from v² - 2 a times the step in depth"),
-)  # fmt: skip
-
-KNOWN = {"start": STARTS, "advance": ADVANCES, "brake": BRAKES, "end": ENDINGS}
+KNOWN: dict[str, tuple[Rule, ...]] = {
+    "start": (
+        Rule("half step", lambda r, k: r["velocity_initial", k] * (r.case.step / 2)),
+        Rule("no half step", lambda r, k: r["velocity_initial", k] * r.case.step,
+             "the first depth is V times the whole step; the report takes half of it"),
+        Rule("starts at zero", lambda *_: 0.0,
+             "the first step leaves the depth at zero; the report takes V times half a step"),
+    ),
+    "advance": (
+        _advance("initial velocity", lambda r, k: r["velocity_initial", k]),
+        _advance("explicit Euler", lambda r, k: r["velocity_initial", k - 1],
+                 "the depth moves on by the initial velocity of the row before"),
+        _advance("impact velocity", lambda r, _: r.case.velocity,
+                 "the depth moves on by the impact velocity in every row"),
+        _advance("final velocity", lambda r, k: r["velocity_final", k],
+                 "the depth moves on by the velocity at the end of the row"),
+        _advance("mean velocity", _mean,
+                 "the depth moves on by the mean of the row's two velocities"),
+        _advance("mean velocity of the row before", lambda r, k: _mean(r, k - 1),
+                 "the depth moves on by the mean of the velocities of the row before"),
+        _by_time(0.0), _by_time(0.5), _by_time(1.0),
+        Rule("half a step alone", lambda r, k: r["velocity_initial", k] * (r.case.step / 2),
+             "each depth is that of half a step; no row adds to the one before"),
+        _advance("half steps throughout", lambda r, k: r["velocity_initial", k] / 2,
+                 "every step moves the depth by half a step only"),
+    ),
+    "brake": BRAKES,
+    "end": (
+        Rule("whole step",
+             lambda r, k: r["velocity_initial", k] - r["deceleration", k] * r.case.step),
+        Rule("half a step",
+             lambda r, k: r["velocity_initial", k] - r["deceleration", k] * (r.case.step / 2),
+             "the velocity falls by the deceleration times half a step only"),
+        Rule("by energy", _by_energy, "the velocity follows from v² - 2 a times the step in depth"),
+    ),
+}  # fmt: skip
 """The rules for each part, the report's first."""
 
 REPORT = {part: rules[0] for part, rules in KNOWN.items()}
