@@ -611,7 +611,7 @@ def _scheme(exam: Examination) -> None:
             shares |= {rule: exam.share(part, rule) for rule in others}
         best = max(shares, key=lambda rule: shares[rule])
         # If the formulas of some rows are right, the wrong ones are found one by one.
-        beside = wrong_beside(exam) if part == "brake" else None
+        beside = wrong_beside(exam) if part == "brake" and best != BEYOND else None
         line = beside.line if beside else exam.line(part)
         is_mixed = _MIXED <= shares[published] < shares[best] and any(irregular(line, exam.table))
         # A fault reported before may explain why the rows do not follow.
