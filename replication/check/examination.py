@@ -1,7 +1,7 @@
-"""What is known of one table: its inputs, the scheme that its rows follow, its differences."""
+"""Everything known about one table: its inputs, the scheme its rows follow, its differences."""
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any
@@ -16,29 +16,30 @@ KINDS = (
     "other scheme", "other input", "unit", "printed number", "not calculated",
 )  # fmt: skip
 NO_FAULT = frozenset({"other input", "not calculated"})
-"""Kinds that are said, and leave a workbook clean."""
+"""Kinds that are reported without making a workbook faulty."""
 
 NEAR = 1e-12
-"""Relative distance below which a cell follows a rule. A rule rounds some twenty times, 2e-15 at
-worst; a file saved with 15 digits adds 3e-14; a constant typed with ten digits is beyond."""
+"""Relative distance up to which a cell agrees with a rule. A rule rounds some twenty times, 2e-15
+at worst, and a file saved with 15 digits adds 3e-14. A constant typed with only ten digits differs
+by more."""
 
 Change = Callable[[Case], Case] | Mapping[str, Rule]
-"""What a difference makes of the report's sheet: another case, or other rules for some parts; none
-at all where only the stop is another."""
+"""How a difference changes the report's sheet: a function from the intended case to a wrong one, or
+other rules for some parts of the scheme (no rules at all if only the stop differs)."""
 
 
 def near(a: float | Fraction, b: float) -> bool:
-    """Whether two numbers are the same to nine digits."""
+    """Whether two numbers agree to nine digits."""
     return math.isclose(a, b, rel_tol=1e-9)
 
 
 @dataclass(frozen=True)
 class Difference:
-    """One way in which a workbook parts from the report's sheet.
+    """One way in which a workbook departs from the report's sheet.
 
-    `cells` are all that it concerns, the first of them the one to look at. `rank` orders
-    differences as their cells are calculated. `effect` is the final depth [m] that this difference
-    alone would give, by the `change` that it makes.
+    `cells` lists every cell concerned, the one to look at first. `rank` sorts differences in the
+    order in which their cells are calculated. `effect` is the final depth [m] that this difference
+    would give if it were the only one; `change` says how to compute that.
     """
 
     kind: str
@@ -56,8 +57,8 @@ class Difference:
         return self.cells[0]
 
     def record(self) -> dict[str, Any]:
-        """As JSON has it; `cells` is the range that it concerns, `count` how many cells."""
-        sheets, rows, columns = (set(each) for each in zip(*self.cells, strict=True))
+        """Return the JSON entry, in which `cells` is a range and `count` the number of cells."""
+        sheets, rows, columns = map(set, zip(*self.cells, strict=True))
         area = (max(rows) - min(rows) + 1) * (max(columns) - min(columns) + 1)
         cells = span(cell[1:] for cell in self.cells)
         if len(self.cells) != area or len(sheets) > 1:
@@ -73,10 +74,10 @@ class Difference:
 
 @dataclass(frozen=True)
 class Input:
-    """One input: its value in SI, its cell (None if no cell holds it) and how it is known.
+    """One input: its value in SI units, its cell (None if no cell holds it), how it was identified.
 
-    `roles` is what its label allows, `unit` what the workbook says, `factor` what the cell's number
-    was multiplied by.
+    `roles` are the inputs that its label may name, `unit` is the unit that the workbook states, and
+    `factor` converts the cell's number to SI units.
     """
 
     role: str
@@ -91,16 +92,16 @@ class Input:
 
 @dataclass
 class Examination:
-    """What is known of a table; more of it as it is judged.
+    """Everything known about one table; `judge` adds to it.
 
-    `rows` are those of the table with the case and the rules that they follow, `intended` is the
-    case that they should: the two differ where a cell for mass, diameter or resistance does not
-    hold what its own inputs give. `powers` of ten lie between its columns and SI units. `negative`:
-    decelerations are negative in the workbook. `read` are all cells outside the table that it
-    reads; `derived` those that hold mass, diameter or resistance; `unread` labelled inputs that it
-    does not read. `right_depth` [m] is that of the report's scheme with the table's inputs, None if
-    it does not end. `differing` counts the cells that differ from that run, causes and consequences
-    alike.
+    `rows` holds the table's numbers with the case and the rules that they follow, `intended` the
+    case that they should follow. The two cases differ where, for example, the cell of the mass does
+    not hold what radius and density give. `powers` are the powers of ten that convert each column
+    to SI units; `negative` says that the workbook's decelerations are negative. `read` are all
+    cells outside the table that it reads; `derived` are the inputs for mass, diameter and
+    resistance; `unread` are labelled inputs that the table does not read. `right_depth` [m] is the
+    final depth by the report's scheme with the intended inputs, None if that run does not end.
+    `differing` counts the cells that differ from that run, causes and consequences alike.
     """
 
     table: Table
@@ -121,42 +122,36 @@ class Examination:
 
     @property
     def case(self) -> Case:
-        """The case that the rows follow."""
+        """The case that the rows actually follow."""
         return self.rows.case
 
     def following(self, case: Case) -> "Examination":
-        """The same table whose rows follow another case."""
+        """Return a copy of this examination whose rows follow another case."""
         return replace(self, rows=replace(self.rows, case=case))
 
-    def followed(self, part: str, rule: Rule, numbers: Iterable[int]) -> Iterator[bool | None]:
-        """Whether each of some rows follows a rule; None where cells are missing."""
-        rows = replace(self.rows, rules=REPORT | {part: rule})
-        near = NEAR if self.table.digits is None else 10.0 ** (2 - self.table.digits)
-        for k in numbers:
-            role, at = rows.shows(part, k)
-            wanted, value = rows.wanted(role, at), rows(role, at)
-            if wanted is None or value is None:
-                yield None
-                continue
-            size = abs(wanted)
-            if role.startswith("velocity"):
-                speed = abs(rows("velocity_initial", k) or 0.0)
-                # Where no column holds the deceleration, the velocities' own rounding is in it.
-                size = speed if part == "end" else abs(speed - wanted) + 1e-2 * speed
-            yield abs(value - wanted) <= near * size
-
     def follows(self, part: str, rule: Rule, k: int) -> bool | None:
-        """Whether a row follows a rule; None where cells are missing."""
-        return next(self.followed(part, rule, [k]))
+        """Whether row k follows a rule; None if cells are missing."""
+        rows = replace(self.rows, rules=REPORT | {part: rule})
+        role, row = rows.shows(part, k)
+        wanted, value = rows.wanted(role, row), rows(role, row)
+        if wanted is None or value is None:
+            return None
+        tolerance = NEAR if self.table.digits is None else 10.0 ** (2 - self.table.digits)
+        size = abs(wanted)
+        if role.startswith("velocity"):
+            speed = abs(rows("velocity_initial", k) or 0.0)
+            # If no column holds the deceleration, it carries the rounding error of the velocities.
+            size = speed if part == "end" else abs(speed - wanted) + 1e-2 * speed
+        return abs(value - wanted) <= tolerance * size
 
     def share(self, part: str, rule: Rule) -> float:
-        """Which share of its rows follows a rule."""
-        each = self.followed(part, rule, range(PARTS[part][1], self.table.steps + 1))
-        judged = [good for good in each if good is not None]
+        """Return the share of the complete rows that follow a rule."""
+        rows = range(PARTS[part][1], self.table.steps + 1)
+        judged = [good for k in rows if (good := self.follows(part, rule, k)) is not None]
         return sum(judged) / len(judged) if judged else 0.0
 
     def agreement(self, rules: Sequence[Rule] = BRAKES[:2]) -> float:
-        """Which share of the rows brakes as its depth and velocity say, by the best of rules."""
+        """Return the share of rows whose deceleration follows the best-fitting of some rules."""
         return max(self.share("brake", rule) for rule in rules)
 
     @property
@@ -165,22 +160,19 @@ class Examination:
         return self.rows("depth", self.table.steps)
 
     def power_shown(self, kind: str, value: float, k: int) -> int | None:
-        """The power of ten times which a value is the depth of row k, or its ratio to the radius.
-
-        None if it is not.
-        """
+        """Return n if a value is 10^n times the depth of row k, or its "ratio" x/R; else None."""
         depth = self.rows("depth", k) or 0.0
         over = self.case.radius if kind == "ratio" else 1.0
         return power_of_ten(value * over / depth) if depth > 0 else None
 
     @property
     def ends(self) -> bool:
-        """Whether the rows go down to the stop."""
+        """Whether the rows run to the stop, so that there is a final depth."""
         return not any(d.kind == "not calculated" for d in self.differences)
 
     @property
     def accused(self) -> set[Position]:
-        """The cells that a fault concerns already."""
+        """The cells of all faults found so far."""
         faults = (d for d in self.differences if d.kind not in NO_FAULT)
         return {cell for fault in faults for cell in fault.cells}
 
@@ -193,16 +185,16 @@ class Examination:
         found: Value | None = None,
         change: Change | None = None,
     ) -> None:
-        """Add a difference that concerns some cells, the first of them the one to look at.
+        """Add a difference; the first of its cells is the one to look at.
 
-        What is `found` is what that cell holds, unless something else is given.
+        If `found` is not given, it is the value of that cell.
         """
-        shown = self.calculation.values.get(cells[0]) if found is None else found
-        fault = kind, tuple(cells), expected, shown, text, self.rank(cells[0]), change
-        self.differences.append(Difference(*fault))
+        found = self.calculation.values.get(cells[0]) if found is None else found
+        entry = kind, tuple(cells), expected, found, text, self.rank(cells[0]), change
+        self.differences.append(Difference(*entry))
 
     def line(self, part: str) -> Line:
-        """The column that shows a part of the scheme."""
+        """Return the column in which a part of the scheme can be seen."""
         return self.table.lines[self.rows.shows(part, 1)[0]]
 
     @property
@@ -211,18 +203,18 @@ class Examination:
         return self.table.place(self.table.speed, min(self.rows.columns[self.table.speed]))
 
     def cells(self, role: str, first: int) -> list[Position]:
-        """The cells of a column from a row on."""
+        """Return the cells of a column from row `first` to the last row."""
         return [self.table.place(role, k) for k in range(first, max(first, self.table.steps) + 1)]
 
     def shown(self, role: str, value: float | None) -> float | None:
-        """A value in SI as its column holds it, in the column's unit and with its sign."""
+        """Convert a value from SI units to the unit and the sign of its column."""
         if value is None:
             return None
         sign = -1.0 if role == "deceleration" and self.negative else 1.0
         return sign * scaled(value, Fraction(10) ** -self.powers[role])
 
     def rank(self, place: Position) -> tuple[float, ...]:
-        """When a cell is calculated: inputs, then row by row, then what rests on the table."""
+        """Return a key in order of calculation: inputs, the rows one by one, then results."""
         if place in self.table.places:
             role, k = self.table.places[place]
             return (1, k, 9 if role == "time" else list(COLUMNS).index(role))

@@ -1,8 +1,8 @@
-"""The scheme's rules, the report's and others that people use, each for one cell from those before.
+"""The rules of the report's scheme, and other rules that people use instead.
 
-A rule goes from `Rows` and the number of a row to what a cell should hold, in SI units. So a
-workbook is judged cell by cell by what its own cells before hold: only the cell where something
-goes wrong fails, not the hundred that follow from it.
+A rule computes what one cell should hold, in SI units, from the cells calculated before it. A
+workbook is therefore judged against its own earlier cells: only the cell in which an error occurs
+fails, not the hundred cells that follow from it.
 """
 
 import math
@@ -12,23 +12,24 @@ from typing import Any
 
 PARTS = {"start": ("depth", 1), "advance": ("depth", 2), "brake": ("deceleration", 1),
          "end": ("velocity_final", 1)}  # fmt: skip
-"""The column that each part of a scheme fills, and the first row that it does."""
+"""The column that each part of a scheme fills, and the first row in which it does."""
 
 FILLS = {role: part for part, (role, _) in PARTS.items()}
-"""The part that fills a column below its first row."""
+"""The part of the scheme that fills a column below its first row."""
 
 ORDER = ("velocity_initial", "depth", "deceleration", "velocity_final")
 """The order of calculation within a row."""
 
 MOST_ROWS = 20_000
-"""Rows that a run computed for comparison may have."""
+"""The most rows that are computed for a comparison."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """The inputs of a run in SI units; mass and diameter as the workbook has them, or computed.
+    """The inputs of a run in SI units.
 
-    `pi` is that of the workbook, which LibreOffice saves with 15 digits where a cell holds it.
+    `own_mass` and `own_diameter` are the workbook's; without them, mass and diameter are computed.
+    `pi` is the workbook's, because LibreOffice saves a cell that holds it with 15 digits.
     """
 
     velocity: float
@@ -44,7 +45,7 @@ class Case:
 
     @property
     def mass(self) -> float:
-        """M = (4/3) pi R^3 rho_p [kg], or the workbook's own."""
+        """M = (4/3) pi R^3 rho_p [kg], or the workbook's mass."""
         if self.own_mass is not None:
             return self.own_mass
         r = self.radius
@@ -52,15 +53,15 @@ class Case:
 
     @property
     def diameter(self) -> float:
-        """D = 2R [m], or the workbook's own."""
+        """D = 2R [m], or the workbook's diameter."""
         return 2 * self.radius if self.own_diameter is None else self.own_diameter
 
     def holding(self, role: str, value: float) -> "Case":
-        """The case with mass, diameter or resistance as a cell holds it, all else as it is."""
+        """Return the case with another mass, diameter or resistance, and nothing else changed."""
         return replace(self, **{"resistance" if role == "resistance" else f"own_{role}": value})
 
     def with_input(self, role: str, value: float, by: float = 1.0) -> "Case":
-        """The case with another input, `by` times the one that it has, and what follows from it."""
+        """Return the case with another input, `by` times the present one, and all that follows."""
         changes: dict[str, dict[str, Any]] = {
             "beta": {"resistance": self.resistance * by},
             "flow_stress": {"resistance": self.resistance * by},
@@ -74,10 +75,10 @@ class Case:
 
 @dataclass(frozen=True)
 class Rows:
-    """The cells of a run by role and row, in SI units.
+    """The numbers of a run by role and row, in SI units.
 
-    What no column shows follows from the others: the velocity at a row's end is that at the
-    beginning of the next, and the deceleration is what the rules give.
+    A role without a column follows from the others: the final velocity of a row is the initial
+    velocity of the next one, and the deceleration is computed by the rules.
     """
 
     columns: Mapping[str, Mapping[int, float]]
@@ -86,11 +87,11 @@ class Rows:
 
     @property
     def others(self) -> "dict[str, Rule]":
-        """The rules by part that are not the report's."""
+        """The rules that are not the report's, by part."""
         return {part: rule for part, rule in self.rules.items() if rule.says}
 
     def __getitem__(self, cell: tuple[str, int]) -> float:
-        """The number in a role and row. Raises KeyError if there is none."""
+        """Return the number of a role in row k. Raises KeyError if there is none."""
         role, k = cell
         if k in self.columns.get(role, ()):
             return self.columns[role][k]
@@ -98,23 +99,23 @@ class Rows:
             return self.columns["velocity_initial"][k + 1]
         if role not in self.columns and role == "velocity_initial":
             return self.case.velocity if k <= 1 else self.columns["velocity_final"][k - 1]
-        if k == 0:  # what a row 0 that is not shown would hold
+        if k == 0:  # a table need not show the row of the impact
             return self.case.velocity if role.startswith("velocity") else 0.0
         if role not in self.columns and role == "deceleration":
             return self.rules["brake"].formula(self, k)
         raise KeyError(cell)
 
     def __call__(self, role: str, k: int) -> float | None:
-        """The number in a role and row, if it is there."""
+        """Return the number of a role in row k, None if there is none."""
         try:
             return self[role, k]
         except KeyError:
             return None
 
     def shows(self, part: str, k: int) -> tuple[str, int]:
-        """The role and row of the cell that shows a part of the scheme in row k.
+        """Return the role and row of the cell in which a part of row k can be seen.
 
-        Without a column for it, it shows in the velocity that it makes.
+        If the part has no column of its own, that is the velocity computed from it.
         """
         for role in (PARTS[part][0], "velocity_final"):
             if role in self.columns:
@@ -122,7 +123,7 @@ class Rows:
         return "velocity_initial", k + 1
 
     def wanted(self, role: str, k: int) -> float | None:
-        """What a cell should hold by what others hold; None where one of those is missing."""
+        """Return what a cell should hold, given the other cells; None if one of them is missing."""
         try:
             if role == "time":
                 return self["time", k - 1] + self.case.step
@@ -142,7 +143,11 @@ class Rows:
 
 @dataclass(frozen=True)
 class Rule:
-    """One way to fill a column, what it says of it (the report's own: nothing), what it `lacks`."""
+    """One way to fill a column.
+
+    `says` describes how it departs from the report's rule (nothing for that rule itself), `lacks`
+    names the input that it leaves out.
+    """
 
     name: str
     formula: Callable[[Rows, int], float]
@@ -153,7 +158,10 @@ class Rule:
 def deceleration(
     case: Case, x: float, v: float, *, factor: float = 0.5, area: float | None = None
 ) -> float:
-    """Deceleration at a depth [m] and velocity [m/s], positive (report's Eqs. A-1 to A-3) [m/s^2].
+    """Return the deceleration at a depth [m] and velocity [m/s] (Eqs. A-1 to A-3) [m/s^2].
+
+    `factor` is that of rho_t v^2 in the drag; `area` is the contact area over pi [m^2] if it is not
+    the report's.
 
     >>> case = Case(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10)
     >>> f"{deceleration(case, 5e-8, 500.0):.2E}"
@@ -165,14 +173,14 @@ def deceleration(
 
 
 def contact(case: Case, x: float) -> float:
-    """Contact area over pi [m^2]: that of the sphere's section, and of the whole sphere beyond."""
+    """Return the contact area over pi [m^2]: D x - x^2 while x < R, and R^2 beyond."""
     return case.diameter * x - x * x if x < case.radius else case.radius * case.radius
 
 
 def orders(case: Case, x: float, v: float) -> set[float]:
-    """The deceleration in each order of operations that the report's equations may be typed in.
+    """Return the deceleration for every order of operations in which the equations may be typed.
 
-    A square is a product or a power, which differ in the last digit now and then.
+    A square may be a product or a power, which now and then differ in the last digit.
     """
     rho, pi, m = case.target_density, case.pi, case.mass
     areas = {contact(case, x)}
@@ -192,7 +200,7 @@ def orders(case: Case, x: float, v: float) -> set[float]:
 def _brake(
     name: str, formula: Callable[[Case, float, float], float], says: str = "", lacks: str = ""
 ) -> Rule:
-    """A rule for the deceleration from the row's own depth and initial velocity."""
+    """Make a rule for the deceleration from the depth and the initial velocity of the same row."""
 
     def by_row(rows: Rows, k: int) -> float:
         return formula(rows.case, rows["depth", k], rows["velocity_initial", k])
@@ -207,7 +215,7 @@ BEYOND = _brake(
 
 
 def depth_times_ten(power: int) -> Rule:
-    """The report's rule with a depth so many powers of ten too large in D x - x²."""
+    """Make the report's rule with a depth 10^power times too large in D x - x²."""
 
     def wrong(case: Case, x: float, v: float) -> float:
         x *= 10.0**power
@@ -256,22 +264,14 @@ BRAKES = (
          "the drag is taken at the initial velocity of the row before"),
 )  # fmt: skip
 
-STARTS = (
-    Rule("half step", lambda r, k: r["velocity_initial", k] * (r.case.step / 2)),
-    Rule("no half step", lambda r, k: r["velocity_initial", k] * r.case.step,
-         "the first depth is V times the whole step; the report takes half of it"),
-    Rule("starts at zero", lambda *_: 0.0,
-         "the first step leaves the depth at zero; the report takes V times half a step"),
-)  # fmt: skip
-
 
 def _advance(name: str, speed: Callable[[Rows, int], float], says: str = "") -> Rule:
-    """A rule for the depth from that of the row before and a velocity."""
+    """Make a rule that adds a velocity times the step to the depth of the row before."""
     return Rule(name, lambda r, k: r["depth", k - 1] + speed(r, k) * r.case.step, says)
 
 
 def _by_time(start: float) -> Rule:
-    """A rule for the depth from the velocity and the time, counted in steps from a start."""
+    """Make a rule for depth = velocity times time, the time counted in steps from a start."""
     return Rule(
         "velocity times time", lambda r, k: r["velocity_initial", k] * (k - start) * r.case.step,
         "the depth is the velocity times the time; no row adds to the one before",
@@ -282,45 +282,51 @@ def _mean(rows: Rows, k: int) -> float:
     return (rows["velocity_initial", k] + rows["velocity_final", k]) / 2
 
 
-ADVANCES = (
-    _advance("initial velocity", lambda r, k: r["velocity_initial", k]),
-    _advance("explicit Euler", lambda r, k: r["velocity_initial", k - 1],
-             "the depth moves on by the initial velocity of the row before"),
-    _advance("impact velocity", lambda r, _: r.case.velocity,
-             "the depth moves on by the impact velocity in every row"),
-    _advance("final velocity", lambda r, k: r["velocity_final", k],
-             "the depth moves on by the velocity at the end of the row"),
-    _advance("mean velocity", _mean,
-             "the depth moves on by the mean of the row's two velocities"),
-    _advance("mean velocity of the row before", lambda r, k: _mean(r, k - 1),
-             "the depth moves on by the mean of the velocities of the row before"),
-    _by_time(0.0), _by_time(0.5), _by_time(1.0),
-    Rule("half a step alone", lambda r, k: r["velocity_initial", k] * (r.case.step / 2),
-         "each depth is that of half a step; no row adds to the one before"),
-    _advance("half steps throughout", lambda r, k: r["velocity_initial", k] / 2,
-             "every step moves the depth by half a step only"),
-)  # fmt: skip
-
-
 def _by_energy(rows: Rows, k: int) -> float:
     v, way = rows["velocity_initial", k], rows["depth", k] - rows["depth", k - 1]
     return math.sqrt(max(v * v - 2 * rows["deceleration", k] * way, 0.0))
 
 
-ENDINGS = (
-    Rule("whole step",
-         lambda r, k: r["velocity_initial", k] - r["deceleration", k] * r.case.step),
-    Rule("half a step",
-         lambda r, k: r["velocity_initial", k] - r["deceleration", k] * (r.case.step / 2),
-         "the velocity falls by the deceleration times half a step only"),
-    Rule("by energy", _by_energy, "the velocity follows from v² - 2 a times the step in depth"),
-)  # fmt: skip
-
-KNOWN = {"start": STARTS, "advance": ADVANCES, "brake": BRAKES, "end": ENDINGS}
-"""The rules for each part, the report's own first."""
+KNOWN: dict[str, tuple[Rule, ...]] = {
+    "start": (
+        Rule("half step", lambda r, k: r["velocity_initial", k] * (r.case.step / 2)),
+        Rule("no half step", lambda r, k: r["velocity_initial", k] * r.case.step,
+             "the first depth is V times the whole step; the report takes half of it"),
+        Rule("starts at zero", lambda *_: 0.0,
+             "the first step leaves the depth at zero; the report takes V times half a step"),
+    ),
+    "advance": (
+        _advance("initial velocity", lambda r, k: r["velocity_initial", k]),
+        _advance("explicit Euler", lambda r, k: r["velocity_initial", k - 1],
+                 "the depth moves on by the initial velocity of the row before"),
+        _advance("impact velocity", lambda r, _: r.case.velocity,
+                 "the depth moves on by the impact velocity in every row"),
+        _advance("final velocity", lambda r, k: r["velocity_final", k],
+                 "the depth moves on by the velocity at the end of the row"),
+        _advance("mean velocity", _mean,
+                 "the depth moves on by the mean of the row's two velocities"),
+        _advance("mean velocity of the row before", lambda r, k: _mean(r, k - 1),
+                 "the depth moves on by the mean of the velocities of the row before"),
+        _by_time(0.0), _by_time(0.5), _by_time(1.0),
+        Rule("half a step alone", lambda r, k: r["velocity_initial", k] * (r.case.step / 2),
+             "each depth is that of half a step; no row adds to the one before"),
+        _advance("half steps throughout", lambda r, k: r["velocity_initial", k] / 2,
+                 "every step moves the depth by half a step only"),
+    ),
+    "brake": BRAKES,
+    "end": (
+        Rule("whole step",
+             lambda r, k: r["velocity_initial", k] - r["deceleration", k] * r.case.step),
+        Rule("half a step",
+             lambda r, k: r["velocity_initial", k] - r["deceleration", k] * (r.case.step / 2),
+             "the velocity falls by the deceleration times half a step only"),
+        Rule("by energy", _by_energy, "the velocity follows from v² - 2 a times the step in depth"),
+    ),
+}  # fmt: skip
+"""The rules for each part, the report's first."""
 
 REPORT = {part: rules[0] for part, rules in KNOWN.items()}
-"""The report's own scheme."""
+"""The report's scheme."""
 
 
 def march(
@@ -329,7 +335,9 @@ def march(
     fixed: Mapping[tuple[str, int], float] | None = None,
     steps: int | None = None,
 ) -> dict[str, dict[int, float]]:
-    """So many steps of a scheme, or those down to the stop velocity, with some cells `fixed`.
+    """Compute the columns of a scheme by role and row, down to the stop velocity or for `steps`.
+
+    Cells in `fixed` keep the number given there.
 
     >>> rows = march(Case(500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10))
     >>> len(rows["depth"]) - 1, f"{rows['depth'][131] * 1e6:.2f}"
@@ -340,7 +348,7 @@ def march(
     columns["velocity_initial"][0] = case.velocity
     columns["depth"][0] = columns["deceleration"][0] = 0.0
     for k in range(1, (steps or MOST_ROWS) + 1):
-        for role in ORDER * len(ORDER):  # a rule that needs a later column waits for it
+        for role in ORDER * len(ORDER):  # some rules need a column that is filled later
             if k not in columns[role]:
                 value = (fixed or {}).get((role, k), rows.wanted(role, k))
                 if value is not None:

@@ -1,8 +1,8 @@
-"""Tables that repeat another one, though a cell beside them tells that another input was meant.
+"""Tables that repeat another table although a cell beside them holds another input for them.
 
-Two equal tables are no fault. But if a cell that is called velocity or step has another value, or
-one called beta or target resistance that of the report's other case, and nothing calculates with
-it, then one table reads a cell that is not its own.
+Two equal tables are no fault. But suppose that a cell labelled velocity or step holds another
+value, or one labelled beta or target resistance holds that of the report's other case, and that
+nothing calculates with this cell. Then one of the tables reads an input that is not its own.
 """
 
 from collections.abc import Iterator, Sequence
@@ -15,79 +15,79 @@ from replication.check.words import quantity, title
 from spreadsheets.foreign import Position
 
 _BLOCK = 3
-"""By so many cells an input may be further from its table than the one that is read by mistake."""
+"""By how many cells an unread input may be further from its table than the input read instead."""
+_LABELS = {"resistance": ("resistance", "beta"), "velocity": ("velocity",), "step": ("step",)}
+"""The inputs by which tables may differ, and the labels of cells that hold them."""
 
 
 def meant(
     tables: Sequence[Examination], beside: Sequence[Input]
 ) -> dict[int, tuple[str, float, str]]:
-    """The input that tables by number should have: role, value in SI, and what tells so.
+    """Return, by number of the table, the input that it should have instead of the one it reads.
 
-    `beside` are all numbers beside the tables.
+    Each is a role, a value in SI units and a text that says where it stands. `beside` are all
+    numbers beside the tables.
     """
-    told: dict[int, tuple[str, float, str]] = {}
-    by_tables = set().union(*(f.read for f in tables))
+    intended: dict[int, tuple[str, float, str]] = {}
+    by_tables = set().union(*(exam.read for exam in tables))
     formulas = tables[0].calculation.formulas.values()
     by_any = by_tables | {area.corner for formula in formulas for area in formula.areas}
-    # Whoever reads one cell alone takes it over, as summaries do, and does not calculate with it.
-    several = [formula for formula in formulas if len(formula.areas) > 1]
+    # A formula that reads a single cell only shows it, as summaries do. So does a product of beta
+    # and flow stress that is itself not used.
+    several = {f.place: f.areas for f in formulas if len(f.areas) > 1}
     products = {cell.place for cell in beside if cell.roles == {"resistance"}}
-    by_most = by_tables | {a.corner for f in several if f.place not in products for a in f.areas}
-    by_most |= {a.corner for f in several if f.place in products & by_most for a in f.areas}
-    for role, names in _CALLED.items():
+    by_most = by_tables | {area.corner for p in several.keys() - products for area in several[p]}
+    by_most |= {area.corner for p in several.keys() & products & by_most for area in several[p]}
+    for role, names in _LABELS.items():
         read = by_most if role == "resistance" else by_any
-        called = ((cell, name) for name in names for cell in beside if cell.roles == {name})
-        idle = [(place, as_role(cell, name, report_inputs())) for cell, name in called
+        labelled = ((cell, name) for name in names for cell in beside if cell.roles == {name})
+        idle = [(place, as_role(cell, name, report_inputs())) for cell, name in labelled
                 if (place := cell.place) and place not in read]  # fmt: skip
         for source, alike in _repeating(tables, names):
             for place, cell in idle:
                 number, value = _owner(place, source, alike), cell.si
-                if cell.role == "beta":  # the resistance that follows from it
+                if cell.role == "beta":  # compare the resistance that follows from it
                     stress = next(iter(alike.values())).inputs.get("flow_stress")
                     value *= stress.si if stress else report_inputs()["flow_stress"][0]
-                # A resistance or a beta may be of another model, unless the report prints it.
+                # A resistance or beta that the report does not print may belong to another model.
                 is_its = role != "resistance" or any(near(value, x) for x in report_inputs()[role])
                 if number is None or not is_its or near(value, getattr(alike[number].case, role)):
                     continue
                 where = f"{address(place, True)}, {quantity(cell.si, cell.role)}"
-                says = f"{title(cell.role)} in {where}, is read by no table"
-                told.setdefault(number, (role, value, says))
-    return told
-
-
-_CALLED = {"resistance": ("resistance", "beta"), "velocity": ("velocity",), "step": ("step",)}
-"""By which names a cell tells an input."""
+                text = f"{title(cell.role)} in {where}, is read by no table"
+                intended.setdefault(number, (role, value, text))
+    return intended
 
 
 def _repeating(
     tables: Sequence[Examination], names: Sequence[str]
 ) -> Iterator[tuple[Position, dict[int, Examination]]]:
-    """The cell that several equal tables read for an input of these names, and the tables."""
+    """Yield each cell that several equal tables read for one of these inputs, and the tables."""
     alike: dict[tuple[Position, Case, float | None], dict[int, Examination]] = {}
-    for number, f in enumerate(tables):
-        cells = (f.inputs[name].place for name in names if name in f.inputs)
+    for number, exam in enumerate(tables):
+        cells = (exam.inputs[name].place for name in names if name in exam.inputs)
         if source := next(filter(None, cells), None):
-            alike.setdefault((source, f.case, f.rows("depth", 4)), {})[number] = f
+            alike.setdefault((source, exam.case, exam.rows("depth", 4)), {})[number] = exam
     return ((source, equal) for (source, *_), equal in alike.items() if len(equal) > 1)
 
 
 def _owner(place: Position, source: Position, tables: dict[int, Examination]) -> int | None:
-    """The table by number to which an idle cell belongs, None if it is far from all.
+    """Return the number of the table to which an idle cell belongs, None if it is far from all.
 
-    It is the nearest, compared with the cell that is read, `source`; of several the last, which was
-    copied from the first.
+    That is the table nearest to the cell, relative to its distance from `source`, the cell that is
+    read instead. Of several it is the last, as people copy the first table to make the others.
     """
-    off = {
-        number: _apart(place, f.table) - _apart(source, f.table)
-        for number, f in reversed(tables.items())
-        if place[0] in (source[0], f.table.sheet)
+    excess = {
+        number: _distance(place, exam.table) - _distance(source, exam.table)
+        for number, exam in reversed(tables.items())
+        if place[0] in (source[0], exam.table.sheet)
     }
-    near_by = [number for number in off if off[number] <= _BLOCK]
-    return min(near_by, key=off.__getitem__, default=None)
+    nearest = min(excess, key=excess.__getitem__, default=None)
+    return nearest if nearest is not None and excess[nearest] <= _BLOCK else None
 
 
-def _apart(place: Position, table: Table) -> int:
-    """How many rows and columns a cell is away from a table; very many on another sheet."""
+def _distance(place: Position, table: Table) -> int:
+    """Return the rows plus columns between a cell and a table; very many on another sheet."""
     if place[0] != table.sheet:
         return 10**6
     _, rows, columns = zip(*table.places, strict=True)
