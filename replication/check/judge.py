@@ -36,7 +36,7 @@ from replication.check.scheme import (
     depth_times_ten,
     march,
 )  # fmt: skip
-from replication.check.table import ROUNDED, address
+from replication.check.table import ROUNDED, Line, address
 from replication.check.words import (
     INPUTS,
     between_units,
@@ -648,10 +648,10 @@ def _accuse(exam: Examination, unknown: Sequence[str] = ()) -> None:
             expected = exam.shown(role, wanted)
         beside = wrong_beside(exam) if part == "brake" else None
         if part in unknown:
-            kind, text = _cause(exam, part, beside)
-            if beside:
+            kind, text, column = _cause(exam, part, beside)
+            if not column.covers(cells[0]):  # a column beside the table, which this one reads
                 rows, expected = range(first, exam.table.steps + 1), None
-                cells = [*(beside.line.place(exam.table.zero + k) for k in rows), *cells]
+                cells = [*(column.place(exam.table.zero + k) for k in rows), *cells]
             exam.add(kind, cells, expected, text)
             continue
         rule = exam.rows.rules[part]
@@ -662,12 +662,13 @@ def _accuse(exam: Examination, unknown: Sequence[str] = ()) -> None:
         exam.add("other scheme", cells, expected, text, change={part: rule})
 
 
-def _cause(exam: Examination, part: str, beside: Beside | None) -> tuple[str, str]:
-    """Return kind and explanation for a column that follows no known rule.
+def _cause(exam: Examination, part: str, beside: Beside | None) -> tuple[str, str, Line]:
+    """Return kind and explanation for a column that follows no known rule, and where to look.
 
     The step or the force may be off by a constant factor in every row. `beside` is the column
     beside the table that makes decelerations wrong, if there is one.
     """
+    column = beside.line if beside else exam.line(part)
     rows = range(PARTS[part][1], exam.table.steps + 1)
     ratios = [ratio for k in rows if (ratio := _ratio(exam, part, k)) is not None]
     ratio = median(ratios) if ratios else 0.0
@@ -675,30 +676,29 @@ def _cause(exam: Examination, part: str, beside: Beside | None) -> tuple[str, st
         for slip in (3, -3, 6, -6) if part == "brake" else ():
             if exam.share(part, depth_times_ten(slip)) >= 0.9:
                 text = f"the contact area takes a depth {times_too(slip)}"
-                return "unit", f"{text}: a unit is converted wrongly"
+                return "unit", f"{text}: a unit is converted wrongly", column
         text = "these cells follow no scheme that this program knows"
-        return "other scheme", beside.says if beside else text
+        return "other scheme", beside.says if beside else text, column
     name, slips, constants = "step", dict[str, float](), {"the time step": exam.case.step}
     if part == "brake":
         name, constants = "force", {"pi": math.pi, "the mass": exam.case.mass}
         slips = {"pi is missing in the force": 1 / math.pi,
                  "the force is not divided by the mass": exam.case.mass}  # fmt: skip
     if power := power_of_ten(ratio):
-        return "unit", f"every {name} is {times_too(power)}: a unit is not converted"
+        return "unit", f"every {name} is {times_too(power)}: a unit is not converted", column
     slips[f"every {name} has the other sign"] = -1.0
     if named := next((text for text, value in slips.items() if near(ratio, value)), ""):
-        return "other scheme", named
-    column = beside.line if beside else exam.line(part)
-    formulas = filter(None, map(exam.calculation.formulas.get, column.cells))
-    numbers = sorted({abs(x) for formula in formulas for x in formula.literals} - {0.0})
-    for (constant, value), number in product(constants.items(), numbers):
-        # A smaller mass makes the deceleration larger.
-        if near(value / number if constant == "the mass" else number / value, ratio):
-            return "typed constant", f"{constant} is typed as {number:.10g}"
+        return "other scheme", named, column
+    for line, (constant, value) in product((column, *exam.table.helpers), constants.items()):
+        formulas = filter(None, map(exam.calculation.formulas.get, line.cells))
+        for number in sorted({abs(x) for formula in formulas for x in formula.literals} - {0.0}):
+            # A smaller mass makes the deceleration larger.
+            if near(value / number if constant == "the mass" else number / value, ratio):
+                return "typed constant", f"{constant} is typed as {number:.10g}", line
     fraction = Fraction(ratio).limit_denominator(8)
     named = f"{fraction}" if near(fraction, ratio) else f"{ratio:.6g}"
     named = f"{ratio:.10g}" if named == "1" else named
-    return "other scheme", f"every {name} is {named} times that of the report's scheme"
+    return "other scheme", f"every {name} is {named} times that of the report's scheme", column
 
 
 def _ratio(exam: Examination, part: str, k: int) -> float | None:

@@ -20,10 +20,9 @@ Model = Callable[..., Any]
 LEAST, GREATEST = 1e-40, 1e40
 """`check_range` accepts all inputs in this range, as its products have at most six factors."""
 
-PIECE = 125_000
+PIECE = 50_000
 """Final depths in a piece of work; two pieces and more are shared out to the cores. A piece takes
-1.4 to 5 ms; starting the threads takes up to 2 ms on a virtual machine, so that less does not pay.
-A million cases still keep eight cores busy."""
+0.5 to 2 ms. Less does not pay, as starting the threads takes some 0.2 ms."""
 
 _DOC = """
 

@@ -11,7 +11,9 @@ from collections.abc import Callable, Iterable, Iterator
 from functools import cache, partial
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parent.parent))
+sys.path.insert(0, str(Path(__file__).parents[1]))
+# Before it the project, since folders of tests are called as its packages are.
+sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from foreign import writers
 from foreign.drawn import drawn

@@ -18,7 +18,9 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any, NamedTuple
 
-sys.path.insert(0, str(Path(__file__).parent.parent))
+sys.path.insert(0, str(Path(__file__).parents[1]))
+# Before it the project, since folders of tests are called as its packages are.
+sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from foreign import layouts, writers
 from foreign.drawn import drawn
