@@ -289,7 +289,7 @@ MATHML = Notation(
     row="<mrow>{}</mrow>".format,
     plus="<mo>+</mo>",
     less="<mo>\N{MINUS SIGN}</mo>",
-    times="<mo>\N{INVISIBLE TIMES}</mo>",
+    times='<mo lspace="0" rspace="0.17em">\N{INVISIBLE TIMES}</mo>',  # "m dv/dt", not "mdv/dt"
     stroke=(0, 0),
 )
 _TIGHTNESS = {"sum": 0, "negative": 1, "product": 2, "quotient": 3, "power": 4}

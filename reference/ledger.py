@@ -553,9 +553,15 @@ def load() -> Ledger:
 
 
 def tables(file: str, kind: Any) -> Any:
-    """Read a TOML file of `reference/report`. Raises msgspec.ValidationError if it does not fit."""
-    document = tomllib.loads(_file(file))
-    return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
+    """Read a TOML file of `reference/report`.
+
+    Raises msgspec.ValidationError, naming the file, if it is no TOML or does not fit.
+    """
+    try:
+        document = tomllib.loads(_file(file))
+        return msgspec.convert(document, kind, dec_hook=lambda kind, value: kind(value))
+    except (tomllib.TOMLDecodeError, msgspec.ValidationError) as error:
+        raise msgspec.ValidationError(f"{file}: {error}") from error
 
 
 def _file(name: str) -> str:

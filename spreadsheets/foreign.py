@@ -146,9 +146,9 @@ def read(path: Path) -> Book:
 
 def _read(path: Path) -> Book:
     if not path.is_file():
-        kind = "is a folder" if path.is_dir() else "is not a regular file"
+        kind = "this is a folder" if path.is_dir() else "this is not a regular file"
         if not path.exists():
-            kind = "is a link that leads nowhere" if path.is_symlink() else "there is no such file"
+            kind = "this link leads nowhere" if path.is_symlink() else "there is no such file"
         raise WorkbookError(kind)
     if path.stat().st_size > MAX_FILE:
         raise WorkbookError(f"has more than {MAX_FILE >> 20} MB; {_LIMITS}")
@@ -158,7 +158,7 @@ def _read(path: Path) -> Book:
     if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
         with path.open("rb") as file:
             start = file.read(len(_OLE_START))
-        fault = "is not a workbook"
+        fault = "this is not a workbook"
         if start == _OLE_START:
             fault = "has a password, or is an .xls file by another name"
         elif start.startswith(b"PK") and not zipfile.is_zipfile(path):

@@ -27,9 +27,9 @@ def check_target(path: Path) -> Path:
         path.stat()  # raises OSError for a link that leads to itself
     target = path.resolve()
     if target.is_dir():
-        raise IsADirectoryError(EISDIR, "is a folder; give a file", str(path))
+        raise IsADirectoryError(EISDIR, "this is a folder; give a file", str(path))
     if target.exists() and not target.is_file():
-        raise OSError(EINVAL, "is not a regular file", str(path))
+        raise OSError(EINVAL, "this is not a regular file", str(path))
     if target.exists() and not os.access(target, os.W_OK):
         raise PermissionError(EACCES, "is write-protected", str(path))
     if not target.parent.is_dir():
@@ -83,7 +83,7 @@ def check_folder(folder: Path, names: Iterable[str]) -> None:
         # The nearest parent that exists; a link counts as existing, wherever it leads.
         nearest = next(parent for parent in path.parents if os.path.lexists(parent))
         if not nearest.is_dir():
-            raise NotADirectoryError(ENOTDIR, "is not a folder; give a folder", str(nearest))
+            raise NotADirectoryError(ENOTDIR, "this is not a folder; give a folder", str(nearest))
         if not os.access(nearest, os.W_OK):
             raise PermissionError(EACCES, "cannot be written to", str(nearest))
         if nearest == path.parent:

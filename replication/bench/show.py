@@ -18,8 +18,8 @@ _HEAD = """\
 The sheet is measured down to its stop velocity: its final depth against the exact one there, its \
 history until the exact time of it. All others are measured to rest, and all but solve_ivp and \
 this project's are told when it comes. A history's worst error is relative to the depth at rest.
-Times are a case's, in us: best and median of {repeats} that take turns, or of those that \
-{limit:g} s allow; to compile in s. * marks the Pareto front of one case at a time."""
+Times are for one case, in us: best and median of {repeats}, taken in turn, or of as many as \
+{limit:g} s allow; compile times are in s. * marks the Pareto front of one case at a time."""
 
 
 def texts(record: dict[str, Any]) -> dict[str, str]:

@@ -106,6 +106,12 @@ def _arranged(record: Record) -> dict[str, Any]:
         "tables": words,
         "between": between,
         "equation_of": {c.claim: e for e in record.equations for c in e.constants},
+        # The findings that concern mostly what does not come out as printed.
+        "on_open": [
+            finding
+            for finding in record.findings
+            if 2 * sum(name in groups["open"] for name in finding.claims) >= len(finding.claims)
+        ],
         "touching": {name: [f for f in by_hand_first if name in f.claims] for name in concerned},
         "sources": {name: records for name, records in sources.items() if records},
         "table": _table_a_1(groups["table-a-1"]),

@@ -345,7 +345,8 @@ NEAR_DECIMALS = st.builds(
     lambda whole, power, ulps: float(f"{whole}e{power}") * (1 + ulps * 2.0**-52),
     st.integers(1, 10**6), st.integers(-9, 3), st.integers(-30, 30),
 )  # fmt: skip
-ENDS = st.floats(-1e12, 1e12) | NEAR_DECIMALS
+# A subnormal double has fewer digits than a range shows.
+ENDS = st.floats(-1e12, 1e12, allow_subnormal=False) | NEAR_DECIMALS
 
 
 @given(ENDS, ENDS, st.integers(3, 12))
