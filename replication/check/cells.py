@@ -121,7 +121,7 @@ def judge_heads_beside(exam: Examination) -> None:
 def wrong_beside(exam: Examination) -> Beside | None:
     """Return the column of areas, pressures or forces because of which decelerations are wrong."""
     for column in _beside(exam):
-        if _power(column.implied) is not None and _power(column.right) is None:
+        if column.cells and _power(column.implied) is not None and _power(column.right) is None:
             return column
     return None
 

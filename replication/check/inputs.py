@@ -210,15 +210,20 @@ def _not_made_of(cells: list[Input], calculation: Calculation) -> list[Input]:
 def _either_density(cells: Sequence[Input], calculation: Calculation) -> dict[str, list[Input]]:
     """Return two densities whose labels do not say whose as choices for both: the rows decide.
 
-    Return nothing if one is the other in another unit.
+    Return nothing if one is the other in another unit. Where the rows do not decide, the one that
+    the mass reads is the particle's: it comes first for the particle and last for the target.
     """
     unsaid = [cell for cell in cells if cell.place and cell.roles == _DENSITIES]
     places = {cell.place for cell in unsaid}
     converts = any(places & read_by([p], calculation).keys() for p in places if p)
     if len(unsaid) != 2 or converts or any(len(c.roles & _DENSITIES) == 1 for c in cells):
         return {}
+    masses = [cell.place for cell in cells if cell.place and cell.roles == {"mass"}]
+    of_mass = read_by(masses, calculation)
+    unsaid.sort(key=lambda cell: cell.place not in of_mass)
+    orders = {"particle_density": unsaid, "target_density": unsaid[::-1]}
     report = report_inputs()
-    return {role: [as_role(c, role, report) for c in unsaid] for role in sorted(_DENSITIES)}
+    return {role: [as_role(c, role, report) for c in order] for role, order in orders.items()}
 
 
 def _typed_first(

@@ -204,7 +204,10 @@ def _unconverted(exam: Examination, entry: Input, value: float, power: int) -> N
 
 
 def _has_power(exam: Examination) -> bool:
-    """Report a mass, diameter or resistance off by a power of ten although its inputs are in SI."""
+    """Report a mass, diameter or resistance off by a power of ten although its inputs are in SI.
+
+    Return whether there is one.
+    """
     for role, names in RESTS_ON.items():
         cell = exam.derived.get(role)
         sources = [exam.inputs[name] for name in names if name in exam.inputs]
@@ -381,8 +384,8 @@ def _fault_of_derived(
     names, power = titles(source.role for source in sources), power_of_ten(in_si / wanted)
     if place not in exam.calculation.formulas:
         is_whole = len(sources) == len(RESTS_ON[role])  # one factor of two gives nothing
-        is_reported = any(source in exam.unread for source in sources)
-        if not exam.read or not is_whole or (is_right and not is_reported):
+        is_unread = any(source in exam.unread for source in sources)
+        if not exam.read or not is_whole or (is_right and not is_unread):
             return None
         if power:
             return "unit", f"is {times_too(power)} for {names}"
@@ -392,9 +395,12 @@ def _fault_of_derived(
         return "unit", f"is {times_too(power)} for {names}: a unit is not converted"
     if is_right:
         return None
-    for number in _typed_for_pi(exam, place):
-        if math.isclose(in_si / number * math.pi, wanted, rel_tol=NEAR):
-            return "typed constant", f"takes {number:.10g} for pi, not {math.pi:.10g}"
+    # Pi, and the factors of units such as ksi.
+    constants = {"pi": math.pi, **{f"a {s.unit}": float(s.factor) for s in sources if s.unit}}
+    for name, constant in constants.items():
+        for number in _rounded(exam, place, constant):
+            if math.isclose(in_si / number * constant, wanted, rel_tol=NEAR):
+                return "typed constant", f"takes {number:.10g} for {name}, not {constant:.10g}"
     text = f"does not follow from {names}" if in_si else "is 0; the report's is assumed"
     return "odd formula", text
 
@@ -416,8 +422,8 @@ def _typed_factor(
     return None
 
 
-def _typed_for_pi(exam: Examination, place: Position) -> Iterator[float]:
-    """Yield the numbers in a cell's formula that are pi rounded to three digits or more.
+def _rounded(exam: Examination, place: Position, constant: float) -> Iterator[float]:
+    """Yield the numbers in a cell's formula that are a constant rounded to three digits or more.
 
     They may stand in cells that the formula reads, and include a power of ten that converts a unit.
     """
@@ -426,10 +432,10 @@ def _typed_for_pi(exam: Examination, place: Position) -> Iterator[float]:
     typed = (number for formula in formulas for number in formula.literals)
     numbers = filter(None, [*typed, *map(exam.calculation.number, cells)])
     for number in (number for number in numbers if number > 0):
-        power = round(math.log10(number / math.pi))
+        power = round(math.log10(number / constant))
         value = scaled(number, Fraction(10) ** -power)
         digits, _ = digits_of(value)
-        if digits >= 3 and value == float(f"{math.pi:.{digits - 1}e}"):
+        if digits >= 3 and value == float(f"{constant:.{digits - 1}e}"):
             yield value
 
 
@@ -496,7 +502,7 @@ def _taken_otherwise(exam: Examination) -> None:
 
 def _typed_inputs(exam: Examination) -> None:
     """Report inputs whose value is typed into formulas that do not read their cell."""
-    accused = exam.accused
+    accused, reported = exam.accused, set[tuple[str, Position]]()
     columns = [(role, exam.cells(role, 0)) for role in exam.table.lines]
     columns += [("", line.cells) for line in exam.table.helpers]
     columns += [("", [r.place]) for r in exam.table.results if exam.table.gives_depth(r.place)]
@@ -507,7 +513,9 @@ def _typed_inputs(exam: Examination) -> None:
                  if place not in accused and _typed_in(exam, entry, role, k, place)]  # fmt: skip
         # A number in only a few of many formulas is their own, such as the number of the row.
         is_usual = len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2])
-        if is_usual:
+        # Two cells may be labelled as the same input.
+        if is_usual and (entry.role, cells[0]) not in reported:
+            reported.add((entry.role, cells[0]))
             _report_typed(exam, entry.role, cells, entry)
 
 
@@ -602,9 +610,9 @@ def _scheme(exam: Examination) -> None:
         starts = (rule for rule in KNOWN["start"] if exam.follows("start", rule, 1))
         chosen["start"] = next(starts, REPORT["start"])
     unknown, columns = [], exam.table.every_line
-    # Without a column for the deceleration, the brake is judged by the velocity that it gives.
-    parts = ["advance", "brake", "end"][: 3 if "deceleration" in exam.table.lines else 2]
-    for part in parts:
+    for part in ("advance", "brake", "end"):
+        if part == "end" and "deceleration" not in exam.table.lines:
+            continue  # the velocity tells the brake
         published, *others = KNOWN[part]
         shares = {published: exam.share(part, published)}
         if shares[published] < 0.9:

@@ -176,6 +176,11 @@ class Line:
         is_long = len(pairs) >= LEAST - 1
         return is_long and pairs[0][0] >= 0 and rising >= 0.9 * len(pairs) and not counts
 
+    @property
+    def may_rise(self) -> bool:
+        """Whether it rises, or would without a fault: it has a unit, and adds to the row before."""
+        return self.rises or (self.unit is not None and self.reads(self, 1))
+
     @cached_property
     def numbers(self) -> list[float]:
         """The values of the cells that hold a number."""
@@ -567,7 +572,7 @@ def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
     # a telling head makes up for the missing number.
     able = [line for line in known if len(line.numbers) >= LEAST - bool(line.roles)]
     longest = sorted(able, key=lambda line: (not line.roles, -len(line.values)))
-    depths = [x for x in longest if "depth" in x.roles or (x.may_be("m") and x.rises)]
+    depths = [x for x in longest if "depth" in x.roles or (x.may_be("m") and x.may_rise)]
     speeds = [v for v in longest if v.is_speed or (v.may_be("m/s") and v.falls)]
     scored = [
         (_score(x, v), len(x.values), -abs(x.number - v.number), x, v)
