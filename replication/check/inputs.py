@@ -184,8 +184,8 @@ def _feeding(
     for role in ("mass", "resistance"):
         sources = {by_role[of][0].place if of in by_role else None for of in RESTS_ON[role]}
         for cell in reads if role not in feeding and None not in sources else ():
-            areas = () if cell.roles else calculation.areas(cell.place)
-            if areas and {calculation.source(area.corner) for area in areas} == sources:
+            read = [] if cell.roles else calculation.corners(cell.place)
+            if read and set(map(calculation.source, read)) == sources:
                 feeding.setdefault(role, replace(cell, role=role))
     return feeding
 
@@ -199,7 +199,7 @@ def _not_made_of(cells: list[Input], calculation: Calculation) -> list[Input]:
 
     def named(cell: Input) -> Input:
         of = {name for role in cell.roles for name in RESTS_ON.get(role, ())}
-        read = [roles_at.get(area.corner) for area in calculation.areas(cell.place)]
+        read = map(roles_at.get, calculation.corners(cell.place))
         alike = {bool(cell.roles & roles) for roles in read if roles and not roles & of}
         is_made = len(alike) == 2 and cell.unit is None
         return replace(cell, roles=frozenset(), label="") if is_made else cell
@@ -237,8 +237,8 @@ def _typed_first(
     called = {(cell.place, role) for cell in reads for role in cell.roles}
 
     def is_typed(cell: Input) -> bool:
-        areas = calculation.areas(cell.place)
-        return not areas or any((area.corner, cell.role) in called for area in areas)
+        read = calculation.corners(cell.place)
+        return not read or any((place, cell.role) in called for place in read)
 
     return {
         role: list(filter(is_typed, cells)) or cells

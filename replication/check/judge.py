@@ -193,7 +193,7 @@ def _unconverted(exam: Examination, entry: Input, value: float, power: int) -> N
     text = f"the formulas take {title(entry.role)} as {quantity(value, entry.role)}, "
     text += times_too(power)
     ranked = sorted(exam.read | exam.table.places.keys(), key=exam.rank)
-    readers = [p for p in ranked if any(a.corner == entry.place for a in calculation.areas(p))]
+    readers = [place for place in ranked if entry.place in calculation.corners(place)]
     if entry.unit and readers:
         text += f": {address(entry.place)} is in {entry.unit}"
         lone = (place for place in readers if len(calculation.areas(place)) == 1)
@@ -256,7 +256,7 @@ def _radius_from_diameter(exam: Examination, radius: Input) -> list[Position]:
         cells.append(place)
         if place == diameter.place:
             return cells if len(cells) > 1 else []
-        place = next((area.corner for area in exam.calculation.areas(place)), None)
+        place = next(iter(exam.calculation.corners(place)), None)
     return []
 
 
@@ -314,9 +314,8 @@ def _cells_with_typed(exam: Examination, value: float) -> list[Position]:
         return near(number, value) or (has_digits and power_of_ten(number / value) is not None)
 
     for line in exam.table.every_line:
-        formulas = list(filter(None, map(exam.calculation.formulas.get, line.cells)))
-        cells = [formula.place for formula in formulas if any(map(is_typed, formula.typed))]
-        if len(cells) > 0.5 * len(formulas):
+        cells = [formula.place for formula in line.formulas if any(map(is_typed, formula.typed))]
+        if len(cells) > 0.5 * len(line.formulas):
             return cells
     return []
 
@@ -624,7 +623,7 @@ def _scheme(exam: Examination) -> None:
         is_mixed = _MIXED <= shares[published] < shares[best] and any(irregular(line, exam.table))
         # A fault reported before may explain why the rows do not follow.
         place = exam.table.place(*exam.rows.shows(part, 3))
-        read = {place, *(area.corner for area in exam.calculation.areas(place))} & exam.accused
+        read = {place, *exam.calculation.corners(place)} & exam.accused
         is_explained = any(column.covers(cell) for cell in read for column in columns)
         if is_mixed or (is_explained and (best != published or shares[best] < 0.5)):
             continue
@@ -698,8 +697,8 @@ def _cause(exam: Examination, part: str, beside: Beside | None) -> tuple[str, st
     if named := next((text for text, value in slips.items() if near(ratio, value)), ""):
         return "other scheme", named, column
     for line, (constant, value) in product((column, *exam.table.helpers), constants.items()):
-        formulas = filter(None, map(exam.calculation.formulas.get, line.cells))
-        for number in sorted({abs(x) for formula in formulas for x in formula.literals} - {0.0}):
+        numbers = {abs(x) for formula in line.formulas for x in formula.literals}
+        for number in sorted(numbers - {0.0}):
             # A smaller mass makes the deceleration larger.
             if near(value / number if constant == "the mass" else number / value, ratio):
                 return "typed constant", f"{constant} is typed as {number:.10g}", line
@@ -804,8 +803,8 @@ def _end_of_rows(exam: Examination) -> None:
     is_prepared = any(max(march(case, rows.rules)["depth"]) == steps for case in cases)
     place = exam.table.place(role, steps)
     results = (result.place for result in exam.table.results if result.kind == "depth")
-    areas = (area for result in results for area in exam.calculation.areas(result))
-    is_excerpt = 2 * steps < whole and not any(a.corner in exam.table.places for a in areas)
+    read = {cell for result in results for cell in exam.calculation.corners(result)}
+    is_excerpt = 2 * steps < whole and not read & exam.table.places.keys()
     if is_changed or is_prepared or is_excerpt:
         exam.add("not calculated", [place], None, text)
     else:
