@@ -176,8 +176,8 @@ def _mislabelled(exam: Examination, entry: Input, power: int) -> None:
 def _unconverted(exam: Examination, entry: Input, value: float, power: int) -> None:
     """Report that the formulas take an input as `value`, 10^power times too large.
 
-    If its label has a unit, this accuses the cell that should convert it, or the formulas that read
-    it; otherwise the input's own cell.
+    If its label has a unit, this accuses the cell that should convert it, or the first column of
+    formulas that read it; otherwise the input's own cell.
     """
     calculation = exam.calculation
     product_cell = exam.derived.get("resistance")
@@ -196,18 +196,18 @@ def _unconverted(exam: Examination, entry: Input, value: float, power: int) -> N
     readers = [place for place in ranked if entry.place in calculation.corners(place)]
     if entry.unit and readers:
         text += f": {address(entry.place)} is in {entry.unit}"
+        # Only the first column is accused, so that another fault of a later one is still found.
+        columns = {place: exam.table.places.get(place, ("",))[0] for place in readers}
+        cells = [place for place in readers if columns[place] == columns[readers[0]]]
         lone = (place for place in readers if len(calculation.areas(place)) == 1)
         converting = [p for p in lone if near(calculation.number(p) or 0.0, value)]
-        cells, expected = (converting[:1], entry.si) if converting else (readers, None)
+        cells, expected = (converting[:1], entry.si) if converting else (cells, None)
     change = _changed(entry.role, value, 10.0**power)
     exam.add("unit", cells, expected, text, change=change)
 
 
 def _has_power(exam: Examination) -> bool:
-    """Report a mass, diameter or resistance off by a power of ten although its inputs are in SI.
-
-    Return whether there is one.
-    """
+    """Whether a power of ten in mass, diameter or resistance explains the rows; then report it."""
     for role, names in RESTS_ON.items():
         cell = exam.derived.get(role)
         sources = [exam.inputs[name] for name in names if name in exam.inputs]
