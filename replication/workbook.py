@@ -321,7 +321,10 @@ def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
 
 
 def _convergence(runs: Runs, inputs: Tree) -> Tree:
-    """Return the ladder of time steps: final depths and their errors against the depth at rest."""
+    """Return the ladder of time steps: depths [um] and their errors against the depth at rest [um].
+
+    With it come the inputs of these runs, and those in use.
+    """
     of_runs = {name: inputs[name] for name in sheets.run_inputs([page for page, _ in runs])}
     values: Tree = {"message": MESSAGES["current"]}
     for page, sheet in runs:

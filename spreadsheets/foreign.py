@@ -106,7 +106,7 @@ class Book:
 
     @cached_property
     def called(self) -> dict[str, str]:
-        """The names of the sheets by the same in capitals: formulas may write them either way."""
+        """Each name of a sheet by the same in capitals: formulas may write it either way."""
         return {name.upper(): name for name in self.sheets}
 
     @cached_property

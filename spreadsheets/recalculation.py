@@ -312,12 +312,16 @@ class Calculation:
         formula = self.formulas.get(place) if place else None
         return formula.areas if formula else ()
 
+    def corners(self, place: Position | None) -> list[Position]:
+        """The first cell of each of these areas: in most formulas, all the cells that they read."""
+        return [area.corner for area in self.areas(place)]
+
     def source(self, place: Position) -> Position:
         """The last cell of the `chain` that starts at a cell."""
         return self.chain(place)[-1]
 
     def chain(self, place: Position) -> list[Position]:
-        """A cell, the only cell that its formula reads, the only one that that reads, and so on."""
+        """A cell and those behind it, each the only one that the formula before it reads."""
         cells = [place]
         for _ in range(8):
             areas = self.areas(cells[-1])

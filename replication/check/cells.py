@@ -34,10 +34,9 @@ def judge_references(exam: Examination) -> None:
     entries = (*exam.inputs.values(), *exam.derived.values(), *exam.unread)
     inputs = {entry.place for entry in entries}
     for line in lines:
-        formulas = list(filter(None, map(exam.calculation.formulas.get, line.cells)))
-        alike = [formula for formula in formulas if formula.shape == formulas[-1].shape]
-        begin = formulas.index(alike[0]) if alike else 0
-        before = formulas[begin - 1] if begin else None
+        alike = [formula for formula in line.formulas if formula.shape == line.formulas[-1].shape]
+        begin = line.formulas.index(alike[0]) if alike else 0
+        before = line.formulas[begin - 1] if begin else None
         for pieces in zip(*(formula.pieces for formula in alike), strict=True):
             read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
             if len(read) > 1:  # a first row with another formula may read the right cell
@@ -61,7 +60,8 @@ class Beside(NamedTuple):
     """A column beside the table that may hold a quantity on which the decelerations rest.
 
     `implied` gives, by row, the unit in which the number is what the row's deceleration implies,
-    `right` the unit in which it is the right value, and `cells` those in which the two differ.
+    `right` the unit in which it is the right value, and `cells` the cells in which these differ.
+    `says` explains what is wrong with such a cell.
     """
 
     line: Line
@@ -121,7 +121,7 @@ def judge_heads_beside(exam: Examination) -> None:
 def wrong_beside(exam: Examination) -> Beside | None:
     """Return the column of areas, pressures or forces because of which decelerations are wrong."""
     for column in _beside(exam):
-        if _power(column.implied) is not None and _power(column.right) is None:
+        if column.cells and _power(column.implied) is not None and _power(column.right) is None:
             return column
     return None
 
@@ -140,7 +140,7 @@ def judge_cells(exam: Examination) -> None:
     wrong: dict[Position, tuple[str, str, float | None]] = {}
     for place, (role, k) in exam.table.places.items():
         expected = exam.rows.wanted(role, k)
-        sources = {area.corner for area in calculation.areas(place)} - {place}
+        sources = {*calculation.corners(place)} - {place}
         if place in odd:
             kind, text = odd.pop(place)
             if error := calculation.error(place):
@@ -181,7 +181,7 @@ def _converting(exam: Examination, place: Position, text: str) -> tuple[Position
     calculation = exam.calculation
     chain = reversed(calculation.chain(place))
     cell = next((source for source in chain if source in calculation.formulas), place)
-    sources = [area.corner for area in calculation.areas(cell)]
+    sources = calculation.corners(cell)
     if cell in exam.table.places or exam.inputs["velocity"].place not in sources:
         return place, text
     return cell, f"{title('velocity')} does not follow from {address(sources[0])}"
@@ -198,7 +198,7 @@ def _spoilt(exam: Examination, wrong: set[Position]) -> set[Position]:
     spoilt |= exam.calculation.texts.keys() | exam.calculation.unknown
     cells = {place for line in exam.table.helpers for place in line.cells}
     for place in sorted(cells & order.keys(), key=order.__getitem__):
-        if any(area.corner in spoilt for area in exam.calculation.areas(place)):
+        if not spoilt.isdisjoint(exam.calculation.corners(place)):
             spoilt.add(place)
     return spoilt
 

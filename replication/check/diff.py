@@ -299,17 +299,14 @@ class Comparison:
         }
         traced = {}
         for new, (was, now, text) in values.items():
-            if text == LAST:
-                why = ""
-            elif new in formulas:
-                why = "the formulas"
-            elif changed.isdisjoint(self.after.precedents(new)) and removed.isdisjoint(
-                self.before.precedents(old_place[new])
+            if text != LAST and new in formulas:
+                text = f"{FOLLOWS}the formulas"
+            elif text != LAST and not (
+                changed.isdisjoint(self.after.precedents(new))
+                and removed.isdisjoint(self.before.precedents(old_place[new]))
             ):
-                why = ""
-            else:
-                why = "the cells that they read"
-            traced[new] = was, now, f"{FOLLOWS}{why}" if why else text
+                text = f"{FOLLOWS}the cells that they read"
+            traced[new] = was, now, text
         return traced
 
     def group(self, differing: "_Differing", kind: str) -> None:

@@ -184,8 +184,8 @@ def _feeding(
     for role in ("mass", "resistance"):
         sources = {by_role[of][0].place if of in by_role else None for of in RESTS_ON[role]}
         for cell in reads if role not in feeding and None not in sources else ():
-            areas = () if cell.roles else calculation.areas(cell.place)
-            if areas and {calculation.source(area.corner) for area in areas} == sources:
+            read = [] if cell.roles else calculation.corners(cell.place)
+            if read and set(map(calculation.source, read)) == sources:
                 feeding.setdefault(role, replace(cell, role=role))
     return feeding
 
@@ -199,7 +199,7 @@ def _not_made_of(cells: list[Input], calculation: Calculation) -> list[Input]:
 
     def named(cell: Input) -> Input:
         of = {name for role in cell.roles for name in RESTS_ON.get(role, ())}
-        read = [roles_at.get(area.corner) for area in calculation.areas(cell.place)]
+        read = map(roles_at.get, calculation.corners(cell.place))
         alike = {bool(cell.roles & roles) for roles in read if roles and not roles & of}
         is_made = len(alike) == 2 and cell.unit is None
         return replace(cell, roles=frozenset(), label="") if is_made else cell
@@ -210,15 +210,20 @@ def _not_made_of(cells: list[Input], calculation: Calculation) -> list[Input]:
 def _either_density(cells: Sequence[Input], calculation: Calculation) -> dict[str, list[Input]]:
     """Return two densities whose labels do not say whose as choices for both: the rows decide.
 
-    Return nothing if one is the other in another unit.
+    Return nothing if one is the other in another unit. Where the rows do not decide, the one that
+    the mass reads is the particle's: it comes first for the particle and last for the target.
     """
     unsaid = [cell for cell in cells if cell.place and cell.roles == _DENSITIES]
     places = {cell.place for cell in unsaid}
     converts = any(places & read_by([p], calculation).keys() for p in places if p)
     if len(unsaid) != 2 or converts or any(len(c.roles & _DENSITIES) == 1 for c in cells):
         return {}
+    masses = [cell.place for cell in cells if cell.place and cell.roles == {"mass"}]
+    of_mass = read_by(masses, calculation)
+    unsaid.sort(key=lambda cell: cell.place not in of_mass)
+    orders = {"particle_density": unsaid, "target_density": unsaid[::-1]}
     report = report_inputs()
-    return {role: [as_role(c, role, report) for c in unsaid] for role in sorted(_DENSITIES)}
+    return {role: [as_role(c, role, report) for c in order] for role, order in orders.items()}
 
 
 def _typed_first(
@@ -232,8 +237,8 @@ def _typed_first(
     called = {(cell.place, role) for cell in reads for role in cell.roles}
 
     def is_typed(cell: Input) -> bool:
-        areas = calculation.areas(cell.place)
-        return not areas or any((area.corner, cell.role) in called for area in areas)
+        read = calculation.corners(cell.place)
+        return not read or any((place, cell.role) in called for place in read)
 
     return {
         role: list(filter(is_typed, cells)) or cells

@@ -176,8 +176,8 @@ def _mislabelled(exam: Examination, entry: Input, power: int) -> None:
 def _unconverted(exam: Examination, entry: Input, value: float, power: int) -> None:
     """Report that the formulas take an input as `value`, 10^power times too large.
 
-    If its label has a unit, this accuses the cell that should convert it, or the formulas that read
-    it; otherwise the input's own cell.
+    If its label has a unit, this accuses the cell that should convert it, or the first column of
+    formulas that read it; otherwise the input's own cell.
     """
     calculation = exam.calculation
     product_cell = exam.derived.get("resistance")
@@ -193,18 +193,21 @@ def _unconverted(exam: Examination, entry: Input, value: float, power: int) -> N
     text = f"the formulas take {title(entry.role)} as {quantity(value, entry.role)}, "
     text += times_too(power)
     ranked = sorted(exam.read | exam.table.places.keys(), key=exam.rank)
-    readers = [p for p in ranked if any(a.corner == entry.place for a in calculation.areas(p))]
+    readers = [place for place in ranked if entry.place in calculation.corners(place)]
     if entry.unit and readers:
         text += f": {address(entry.place)} is in {entry.unit}"
+        # Only the first column is accused, so that another fault of a later one is still found.
+        columns = {place: exam.table.places.get(place, ("",))[0] for place in readers}
+        cells = [place for place in readers if columns[place] == columns[readers[0]]]
         lone = (place for place in readers if len(calculation.areas(place)) == 1)
         converting = [p for p in lone if near(calculation.number(p) or 0.0, value)]
-        cells, expected = (converting[:1], entry.si) if converting else (readers, None)
+        cells, expected = (converting[:1], entry.si) if converting else (cells, None)
     change = _changed(entry.role, value, 10.0**power)
     exam.add("unit", cells, expected, text, change=change)
 
 
 def _has_power(exam: Examination) -> bool:
-    """Report a mass, diameter or resistance off by a power of ten although its inputs are in SI."""
+    """Whether a power of ten in mass, diameter or resistance explains the rows; then report it."""
     for role, names in RESTS_ON.items():
         cell = exam.derived.get(role)
         sources = [exam.inputs[name] for name in names if name in exam.inputs]
@@ -253,7 +256,7 @@ def _radius_from_diameter(exam: Examination, radius: Input) -> list[Position]:
         cells.append(place)
         if place == diameter.place:
             return cells if len(cells) > 1 else []
-        place = next((area.corner for area in exam.calculation.areas(place)), None)
+        place = next(iter(exam.calculation.corners(place)), None)
     return []
 
 
@@ -311,9 +314,8 @@ def _cells_with_typed(exam: Examination, value: float) -> list[Position]:
         return near(number, value) or (has_digits and power_of_ten(number / value) is not None)
 
     for line in exam.table.every_line:
-        formulas = list(filter(None, map(exam.calculation.formulas.get, line.cells)))
-        cells = [formula.place for formula in formulas if any(map(is_typed, formula.typed))]
-        if len(cells) > 0.5 * len(formulas):
+        cells = [formula.place for formula in line.formulas if any(map(is_typed, formula.typed))]
+        if len(cells) > 0.5 * len(line.formulas):
             return cells
     return []
 
@@ -381,8 +383,8 @@ def _fault_of_derived(
     names, power = titles(source.role for source in sources), power_of_ten(in_si / wanted)
     if place not in exam.calculation.formulas:
         is_whole = len(sources) == len(RESTS_ON[role])  # one factor of two gives nothing
-        is_reported = any(source in exam.unread for source in sources)
-        if not exam.read or not is_whole or (is_right and not is_reported):
+        is_unread = any(source in exam.unread for source in sources)
+        if not exam.read or not is_whole or (is_right and not is_unread):
             return None
         if power:
             return "unit", f"is {times_too(power)} for {names}"
@@ -392,9 +394,12 @@ def _fault_of_derived(
         return "unit", f"is {times_too(power)} for {names}: a unit is not converted"
     if is_right:
         return None
-    for number in _typed_for_pi(exam, place):
-        if math.isclose(in_si / number * math.pi, wanted, rel_tol=NEAR):
-            return "typed constant", f"takes {number:.10g} for pi, not {math.pi:.10g}"
+    # Pi, and the factors of units such as ksi.
+    constants = {"pi": math.pi, **{f"a {s.unit}": float(s.factor) for s in sources if s.unit}}
+    for name, constant in constants.items():
+        for number in _rounded(exam, place, constant):
+            if math.isclose(in_si / number * constant, wanted, rel_tol=NEAR):
+                return "typed constant", f"takes {number:.10g} for {name}, not {constant:.10g}"
     text = f"does not follow from {names}" if in_si else "is 0; the report's is assumed"
     return "odd formula", text
 
@@ -416,8 +421,8 @@ def _typed_factor(
     return None
 
 
-def _typed_for_pi(exam: Examination, place: Position) -> Iterator[float]:
-    """Yield the numbers in a cell's formula that are pi rounded to three digits or more.
+def _rounded(exam: Examination, place: Position, constant: float) -> Iterator[float]:
+    """Yield the numbers in a cell's formula that are a constant rounded to three digits or more.
 
     They may stand in cells that the formula reads, and include a power of ten that converts a unit.
     """
@@ -426,10 +431,10 @@ def _typed_for_pi(exam: Examination, place: Position) -> Iterator[float]:
     typed = (number for formula in formulas for number in formula.literals)
     numbers = filter(None, [*typed, *map(exam.calculation.number, cells)])
     for number in (number for number in numbers if number > 0):
-        power = round(math.log10(number / math.pi))
+        power = round(math.log10(number / constant))
         value = scaled(number, Fraction(10) ** -power)
         digits, _ = digits_of(value)
-        if digits >= 3 and value == float(f"{math.pi:.{digits - 1}e}"):
+        if digits >= 3 and value == float(f"{constant:.{digits - 1}e}"):
             yield value
 
 
@@ -496,7 +501,7 @@ def _taken_otherwise(exam: Examination) -> None:
 
 def _typed_inputs(exam: Examination) -> None:
     """Report inputs whose value is typed into formulas that do not read their cell."""
-    accused = exam.accused
+    accused, reported = exam.accused, set[tuple[str, Position]]()
     columns = [(role, exam.cells(role, 0)) for role in exam.table.lines]
     columns += [("", line.cells) for line in exam.table.helpers]
     columns += [("", [r.place]) for r in exam.table.results if exam.table.gives_depth(r.place)]
@@ -507,7 +512,9 @@ def _typed_inputs(exam: Examination) -> None:
                  if place not in accused and _typed_in(exam, entry, role, k, place)]  # fmt: skip
         # A number in only a few of many formulas is their own, such as the number of the row.
         is_usual = len(cells) >= 0.5 * len(places) or set(cells) & set(places[:2])
-        if is_usual:
+        # Two cells may be labelled as the same input.
+        if is_usual and (entry.role, cells[0]) not in reported:
+            reported.add((entry.role, cells[0]))
             _report_typed(exam, entry.role, cells, entry)
 
 
@@ -602,9 +609,9 @@ def _scheme(exam: Examination) -> None:
         starts = (rule for rule in KNOWN["start"] if exam.follows("start", rule, 1))
         chosen["start"] = next(starts, REPORT["start"])
     unknown, columns = [], exam.table.every_line
-    # Without a column for the deceleration, the brake is judged by the velocity that it gives.
-    parts = ["advance", "brake", "end"][: 3 if "deceleration" in exam.table.lines else 2]
-    for part in parts:
+    for part in ("advance", "brake", "end"):
+        if part == "end" and "deceleration" not in exam.table.lines:
+            continue  # the velocity tells the brake
         published, *others = KNOWN[part]
         shares = {published: exam.share(part, published)}
         if shares[published] < 0.9:
@@ -616,7 +623,7 @@ def _scheme(exam: Examination) -> None:
         is_mixed = _MIXED <= shares[published] < shares[best] and any(irregular(line, exam.table))
         # A fault reported before may explain why the rows do not follow.
         place = exam.table.place(*exam.rows.shows(part, 3))
-        read = {place, *(area.corner for area in exam.calculation.areas(place))} & exam.accused
+        read = {place, *exam.calculation.corners(place)} & exam.accused
         is_explained = any(column.covers(cell) for cell in read for column in columns)
         if is_mixed or (is_explained and (best != published or shares[best] < 0.5)):
             continue
@@ -690,8 +697,8 @@ def _cause(exam: Examination, part: str, beside: Beside | None) -> tuple[str, st
     if named := next((text for text, value in slips.items() if near(ratio, value)), ""):
         return "other scheme", named, column
     for line, (constant, value) in product((column, *exam.table.helpers), constants.items()):
-        formulas = filter(None, map(exam.calculation.formulas.get, line.cells))
-        for number in sorted({abs(x) for formula in formulas for x in formula.literals} - {0.0}):
+        numbers = {abs(x) for formula in line.formulas for x in formula.literals}
+        for number in sorted(numbers - {0.0}):
             # A smaller mass makes the deceleration larger.
             if near(value / number if constant == "the mass" else number / value, ratio):
                 return "typed constant", f"{constant} is typed as {number:.10g}", line
@@ -796,8 +803,8 @@ def _end_of_rows(exam: Examination) -> None:
     is_prepared = any(max(march(case, rows.rules)["depth"]) == steps for case in cases)
     place = exam.table.place(role, steps)
     results = (result.place for result in exam.table.results if result.kind == "depth")
-    areas = (area for result in results for area in exam.calculation.areas(result))
-    is_excerpt = 2 * steps < whole and not any(a.corner in exam.table.places for a in areas)
+    read = {cell for result in results for cell in exam.calculation.corners(result)}
+    is_excerpt = 2 * steps < whole and not read & exam.table.places.keys()
     if is_changed or is_prepared or is_excerpt:
         exam.add("not calculated", [place], None, text)
     else:

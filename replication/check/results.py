@@ -72,7 +72,7 @@ def _judge_columns(exam: Examination) -> None:
         factors = [shown[k] / x * (exam.case.radius if ratio else 1.0) for k, x in depths.items()]
         factor = median(factors) if factors else 0.0
         cells = [line.place(exam.table.zero + k) for k in depths]
-        read = {area.corner for cell in cells for area in exam.calculation.areas(cell)}
+        read = set[Position]().union(*map(exam.calculation.corners, cells))
         is_rounded = sum(near(value, factor) for value in factors) <= 0.5 * len(factors)
         if is_rounded or read & exam.accused:
             continue

@@ -32,9 +32,9 @@ from spreadsheets.recalculation import Area, Calculation, Formula
 LEAST = 4
 """The fewest numbers that make a line; the report itself prints five rows."""
 _GAP = 3
-"""The most cells without a number that a line may have in a row."""
+"""The most cells without a number between two numbers of a line."""
 _ABOVE = 6
-"""The most cells between a line's head and its first number."""
+"""How many cells above its first number, at most, a line's head may stand."""
 _MAX_LINES = 60
 """The most depths, and the most velocities, that are tried with each other."""
 ROUNDED = 12
@@ -44,7 +44,7 @@ _SAMPLE = 500
 _CLOSE = 0.02
 """How nearly a ratio must repeat from row to row: a velocity mostly falls by 1 % a row."""
 NEAR_END = 2
-"""Rows before the last: a depth not called final that shows one of them is meant to be final."""
+"""How many rows before the last a result may show and still be taken for a final depth."""
 FEW = 64
 """The most cells of a range that are looked at one by one; larger ranges are no inputs."""
 _SURE = 0.75
@@ -85,7 +85,7 @@ class Line:
         """The roles that the line may have by the user's word, or else by its head."""
         if self.given in COLUMNS:
             return frozenset({self.given})
-        return column_roles(self.given or self.head or "")  # --map velocity leaves the end open
+        return column_roles(self.given or self.head or "")  # --map velocity names neither end
 
     @property
     def is_speed(self) -> bool:
@@ -140,6 +140,11 @@ class Line:
         """Every cell of the line."""
         return [self.place(at) for at in range(self.first, self.last + 1)]
 
+    @cached_property
+    def formulas(self) -> list[Formula]:
+        """The formulas among its cells."""
+        return list(filter(None, map(self.calculation.formulas.get, self.cells)))
+
     def formula(self, at: int) -> Formula | None:
         """The formula at an index."""
         return self.calculation.formulas.get(self.place(at))
@@ -175,6 +180,11 @@ class Line:
         counts = all(b - a == 1 for a, b in pairs)
         is_long = len(pairs) >= LEAST - 1
         return is_long and pairs[0][0] >= 0 and rising >= 0.9 * len(pairs) and not counts
+
+    @property
+    def may_rise(self) -> bool:
+        """Whether it rises, or would without a fault: it has a unit, and adds to the row before."""
+        return self.rises or (self.unit is not None and self.reads(self, 1))
 
     @cached_property
     def numbers(self) -> list[float]:
@@ -567,7 +577,7 @@ def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
     # a telling head makes up for the missing number.
     able = [line for line in known if len(line.numbers) >= LEAST - bool(line.roles)]
     longest = sorted(able, key=lambda line: (not line.roles, -len(line.values)))
-    depths = [x for x in longest if "depth" in x.roles or (x.may_be("m") and x.rises)]
+    depths = [x for x in longest if "depth" in x.roles or (x.may_be("m") and x.may_rise)]
     speeds = [v for v in longest if v.is_speed or (v.may_be("m/s") and v.falls)]
     scored = [
         (_score(x, v), len(x.values), -abs(x.number - v.number), x, v)
@@ -606,7 +616,7 @@ def _rests_on(line: Line, source: Line) -> bool:
     """Whether the last cell of a line reads the source through no more cells than a row has."""
     cells = {line.place(line.last)}
     for _ in COLUMNS:
-        cells = {area.corner for cell in cells for area in line.calculation.areas(cell)}
+        cells = set[Position]().union(*map(line.calculation.corners, cells))
         if any(map(source.covers, cells)):
             return True
     return False
@@ -624,10 +634,10 @@ def _constant(pairs: Iterable[tuple[float | None, float | None]], close: float =
 def _is_view(table: Table, tables: Sequence[Table]) -> bool:
     """Whether a table only shows the depths of another one, apart from some typed cells."""
     others = {place for another in tables if another is not table for place in another.places}
-    areas = [table.calculation.areas(table.place("depth", k)) for k in range(1, table.steps + 1)]
-    views = sum(any(area.corner in others for area in read) for read in areas)
+    cells = [table.place("depth", k) for k in range(1, table.steps + 1)]
+    views = sum(not others.isdisjoint(table.calculation.corners(cell)) for cell in cells)
     depth = table.lines["depth"]
-    return views > 0.9 * len(areas) and not depth.reads(depth, 1)
+    return views > 0.9 * len(cells) and not depth.reads(depth, 1)
 
 
 def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table:

@@ -30,14 +30,15 @@ def meant(
     """
     intended: dict[int, tuple[str, float, str]] = {}
     by_tables = set().union(*(exam.read for exam in tables))
-    formulas = tables[0].calculation.formulas.values()
-    by_any = by_tables | {area.corner for formula in formulas for area in formula.areas}
+    calculation = tables[0].calculation
+    read_by = {place: calculation.corners(place) for place in calculation.formulas}
+    by_any = by_tables.union(*read_by.values())
     # A formula that reads a single cell only shows it, as summaries do. So does a product of beta
     # and flow stress that is itself not used.
-    several = {f.place: f.areas for f in formulas if len(f.areas) > 1}
+    several = {place: cells for place, cells in read_by.items() if len(cells) > 1}
     products = {cell.place for cell in beside if cell.roles == {"resistance"}}
-    by_most = by_tables | {area.corner for p in several.keys() - products for area in several[p]}
-    by_most |= {area.corner for p in several.keys() & products & by_most for area in several[p]}
+    by_most = by_tables.union(*(several[place] for place in several.keys() - products))
+    by_most = by_most.union(*(several[place] for place in several.keys() & products & by_most))
     for role, names in _LABELS.items():
         read = by_most if role == "resistance" else by_any
         labelled = ((cell, name) for name in names for cell in beside if cell.roles == {name})

@@ -28,12 +28,12 @@ INPUTS = _WORDS["inputs"]
 _MEASURES = {**COLUMNS, **INPUTS}
 
 _MAX_LABEL = 80
-"""Characters of a text that are read."""
+"""The most characters of a text that are read."""
 
 
 @cache
 def _plain(text: str) -> str:
-    """Return a text in small letters, without superscripts, marks, double blanks or "(SI)"."""
+    """Return a text in small letters and plain digits, without marks, double blanks or "(SI)"."""
     text = unicodedata.normalize("NFKC", text[:_MAX_LABEL]).casefold().replace("−", "-")
     bare = re.sub(r"\s+", " ", re.sub(r"[=:;^]+|\*\*", "", text)).strip()
     return re.sub(r" (?:in )?[\[(]?si(?: units?| unit[ée]s?)?[\])]?$", "", bare)

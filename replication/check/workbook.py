@@ -204,7 +204,7 @@ def _nothing(calculation: Calculation) -> str:
         return f"{nothing}; {typed:,} cells hold numbers as text: convert them to numbers"
     wrong = [place for place in calculation.formulas if calculation.error(place)]
     first = min(wrong, key=calculation.order.__getitem__, default=None)
-    spoiling = {calculation.source(area.corner) for area in calculation.areas(first)}
+    spoiling = set(map(calculation.source, calculation.corners(first)))
     instead = sorted(_labelled_texts(calculation) | (spoiling & calculation.spoiling))
     for place in instead:
         nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"

@@ -12,7 +12,7 @@ from functools import cache, partial
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
-# Before it the project, since folders of tests are called as its packages are.
+# The project must come first: folders of tests have the names of its packages.
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from foreign import writers
