@@ -73,13 +73,13 @@ class Assessment(msgspec.Struct, frozen=True):
     readings: tuple[Reading, ...] = ()
 
 
-def restates(ledger: Ledger, claim: Claim) -> bool:
-    """Return whether a claim that repeats a number, or counts numbers, agrees with them.
+def is_consistent(ledger: Ledger, claim: Claim) -> bool:
+    """Return whether a claim that restates agrees with the number it repeats, or with the count.
 
-    A repetition agrees if some value prints like both texts; a bound must be satisfied by it.
+    It agrees with a number if some value prints like both or, for a bound, prints like that number
+    and satisfies the bound.
     """
-    assert claim.computation is not None
-    if claim.computation.name == "count":
+    if "value" not in claim.inputs:
         return claim.target().contains(Fraction(len(claim.inputs)))
     (name,) = claim.inputs["value"]
     # A choice or an exact number is one value; a bound or an "about" has an interval of its own.
@@ -131,8 +131,8 @@ class Judge:
         It is "not reproduced", with the reason, if the computation has no value for the inputs as
         printed.
         """
-        if claim.computation is not None and claim.computation.restates:
-            agrees = restates(self.ledger, claim)
+        if claim.restates:
+            agrees = is_consistent(self.ledger, claim)
             return Assessment(Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)

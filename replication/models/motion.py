@@ -45,8 +45,7 @@ def history(
     for start, unit, length in _steps(terms, b, c, min(final, 1.0), at_radius):
         reached = start + length * unit
         begin, end = start * R / V, reached * R / V
-        if not rising:
-            k = 0
+        k = k if rising else 0
         while k < len(time) and not (rising and time[k] >= end):
             first = k
             while k < len(time) and begin <= time[k] < end:

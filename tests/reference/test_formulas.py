@@ -78,11 +78,7 @@ def test_dimensions_of_expressions(question: str, answer: str) -> None:
 
 # Each computation of the ledger: its inputs, its units, its value
 
-COMPUTED = [
-    claim
-    for claim in LEDGER.claims.values()
-    if claim.computation and not claim.computation.restates
-]
+COMPUTED = [claim for claim in LEDGER.claims.values() if claim.is_computed]
 
 
 def test_every_computation_is_a_formula_or_a_function_and_computes_something() -> None:
