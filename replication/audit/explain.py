@@ -288,7 +288,7 @@ class Explainer:
 
 
 _BISECTIONS = 40
-"""So many narrow the search to 1e-12 of its width, which is finer than any page shows."""
+"""This many narrow the search to 1e-12 of its width, which is finer than any page shows."""
 
 _BUDGET = 250
 """The most parts of a search; some 200 are needed for k_t, as the depth hardly depends on it."""

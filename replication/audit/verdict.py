@@ -28,8 +28,8 @@ class Judgement(msgspec.Struct, frozen=True):
 
     `ends` is a range proven to contain the value, in the claim's unit: if the printed inputs give
     the number, for these and all admitted values of the inferred inputs; else for all inputs that
-    print like the report's. If the printed inputs do not give the number, `witness` holds inputs
-    (SI) that do, if some are known; it has the mass in place of a radius computed from the mass.
+    print like the report's. Unless the number is reproduced, `witness` holds inputs (SI) that give
+    it, if some are known; it has the mass in place of a radius computed from the mass.
     `against_evidence`: some value in the range prints like the claim, but it is proven that no
     inputs give both it and the numbers from which an input is inferred.
     """
@@ -44,8 +44,9 @@ class Judgement(msgspec.Struct, frozen=True):
 class Reading(msgspec.Struct, frozen=True):
     """The result of one computation of a claim, by one reading of the report; in the claim's unit.
 
-    `computed` is the replica's double for the inputs as printed, `reference` the same value to 25
-    digits; `judgements` has one judgement for every convention, the usual one first.
+    `computed` is the models' double for the inputs as printed (in a ledger with a misprint, that of
+    the ledger's formula), `reference` the same value to 25 digits; `judgements` has one judgement
+    for every convention, the usual one first.
     """
 
     name: str
