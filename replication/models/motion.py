@@ -153,7 +153,8 @@ def _beyond(time: float, b: float, c: float, at_radius: float) -> tuple[float, f
 def _time_beyond(y: float, u: float, b: float, c: float, at_radius: float) -> float:
     """Return the time from y = 1 to the depth y and velocity u; 0 if the motion ends before."""
     k, lost = math.sqrt(c / b), at_radius - u
-    if lost < u:  # the difference has lost digits: take it from y by the energy integral
+    if at_radius > 0 and lost < u:
+        # The difference has lost digits. The energy integral gives it from y.
         lost = -(at_radius * at_radius + k * k) * math.expm1(2 * b * (1 - y)) / (at_radius + u)
     return math.atan2(k * lost, k * k + at_radius * u) / (k * b)
 

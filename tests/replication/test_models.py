@@ -219,6 +219,11 @@ def test_motions_that_end_near_the_radius(crossing: float) -> None:
         check_history(case, share)
 
 
+@given(CASES)
+def test_the_time_down_to_a_tiny_velocity_is_that_to_rest(case: tuple[float, ...]) -> None:
+    assert stop_time(*case, case[0] * 1e-200) == approx(stop_time(*case), rel=1e-14)
+
+
 @pytest.mark.parametrize("light", [1e-2, 1e-6])
 def test_times_in_a_light_target(light: float) -> None:
     """The velocity hardly falls near the radius, so that the depth must tell the time."""
