@@ -238,7 +238,7 @@ class Explainer:
     def ranked(self, names: Collection[str]) -> list[RepairRecord]:
         """Return the repairs that may explain several failures at once, likeliest first.
 
-        A misprint behind all of them stands in an entry that all rest on, so only such entries are
+        A misprint behind all of them is in an entry that all depend on, so only such entries are
         tried. If these give no repair, those of the claim that is quickest to compute are returned.
         An input that fails only because the claims computed from it do is left out.
         """
