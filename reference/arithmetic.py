@@ -91,7 +91,7 @@ class Reals(Arithmetic):
         return x
 
     def cap_root(self, c: Number) -> Number:
-        """Return y in [0, 2] for c in [0, 4/3], by a root search that checks the sines above."""
+        """Return y in [0, 2] for c in [0, 4/3], by a root search: a check on the sines above."""
         if 3 * c > 4:
             raise ArithmeticError("y^2 - y^3/3 is at most 4/3, at y = 2")
         # With y = s sqrt(c), s stays within [1, 1.23] for c <= 2/3, however small c is.

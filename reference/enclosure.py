@@ -43,14 +43,14 @@ class Range(msgspec.Struct, frozen=True):
 
     @property
     def is_monotone(self) -> bool:
-        """Whether the function is proven monotone in every input: it then attains both ends."""
+        """Whether it is proven monotone in every input: both ends are then sharp."""
         return all(self.signs.values())
 
 
 def enclose(function: Function, box: Box) -> Range:
     """Return a proven range of the function over the box, in SI units.
 
-    Raises ArithmeticError if the function has no value, or no bounded one, somewhere in the box.
+    Raises ArithmeticError unless the function is known to have bounded values all over the box.
 
     >>> box = {"x": (Fraction(1), Fraction(2))}
     >>> [float(end) for end in enclose(lambda ar, x: x / (1 + x), box).ends]
@@ -146,7 +146,7 @@ def solve(
 
     A part of the search on which the function is proven monotone is solved by bisection; any other
     undecided part is halved. At most `budget` parts are examined. What is then undecided belongs to
-    the outer intervals, as do parts on which the function has no value somewhere.
+    the outer intervals, as do parts on which the function may have no value somewhere.
 
     >>> search, target = (Fraction(0), Fraction(9)), Interval(Fraction(2), Fraction(3))
     >>> found = solve(lambda ar, x, y: x * y, "x", search, target, others={"y": Fraction(2)})
@@ -235,7 +235,7 @@ def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
     for function, target in constraints:
         try:
             range_ = enclose(function, box)
-        except ArithmeticError:  # it is undefined in part of the box, and bounds nothing
+        except ArithmeticError:  # it may be undefined in part of the box, and bounds nothing
             continue
         for top in (0, 1) if range_.is_monotone else ():
             # For this input's greatest value, inputs with the same sign are low and others high.
@@ -318,7 +318,7 @@ def _undecided(constraints: Sequence[Constraint], box: Box) -> list[Constraint] 
             ends = _plain_range(function, box)  # much faster than with derivatives
             if not target.decides(*ends):
                 ends = enclose(function, box).ends
-        except ArithmeticError:  # undefined or unbounded in part of the box
+        except ArithmeticError:  # maybe undefined or unbounded in part of the box
             undecided.append((function, target))
             continue
         if target.excludes(*ends):

@@ -130,7 +130,7 @@ def _holds(text: str) -> bool:
     """Calculate a line of arithmetic such as "2/3 * 3 = 2.0" again; return whether it holds."""
     left, _, right = text.rpartition("=")
     value = evaluate(expression(left)[0], _REALS, {})
-    # Five digits fewer than were computed: a result that is exact must not miss by a rounding.
+    # Five digits fewer than were computed, so that no rounding error keeps an exact result out.
     computed = Fraction(_REALS.context.nstr(value, 25))
     return parse(right.strip()).interval().contains(computed)
 

@@ -155,7 +155,7 @@ class Intervals(Arithmetic):
             (least, greatest), margin = _bounded(c), arb(2) ** (20 - ctx.prec)
             low = (super().cap_root(least) * (1 - margin)).lower()
             high = (super().cap_root(greatest) * (1 + margin)).upper()
-            # y^2 - y^3/3 increases on [0, 2]: it must reach down to c at one end, up at the other.
+            # y^2 - y^3/3 increases on [0, 2]: at the ends it must be at most and at least c.
             if not (low**2 - low**3 / 3 <= least and high**2 - high**3 / 3 >= greatest):
                 raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
         return Span(low, high)

@@ -259,6 +259,16 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
         """The computation that gives the claim as printed, if there is one."""
         return self.computations.get("")
 
+    @property
+    def restates(self) -> bool:
+        """Whether the claim only repeats or counts what the report prints elsewhere."""
+        return self.computation is not None and self.computation.restates
+
+    @property
+    def is_computed(self) -> bool:
+        """Whether a computation gives the claim that is no restatement."""
+        return self.computation is not None and not self.computation.restates
+
     @cached_property
     def entries(self) -> list[str]:
         """The ids of the entries that the claim is computed from, sorted."""

@@ -1,4 +1,4 @@
-"""Printed numbers: the exact interval of the values that print as a text, and where it stands.
+"""Printed numbers: the exact interval of the values that print as a text, and its place.
 
 A printed number is a text: "7.67" stands for every value from 7.665 up to 7.675, and "700" may have
 one, two or three significant digits. All arithmetic is rational; no binary float is involved.

@@ -17,7 +17,7 @@ class UnitError(ValueError):
 
 
 class DimensionError(ValueError):
-    """Two quantities of different dimensions are added, or a logarithm's argument has one."""
+    """Quantities of different dimensions are added, or the logarithm of a dimension is taken."""
 
 
 class Dimension(msgspec.Struct, frozen=True):

@@ -328,7 +328,7 @@ def _distribution(
             return np.clip(np.exp(values) if log else values, lower, upper)
 
     least, greatest = quantile(np.array([LEAST_SHARE, 1 - LEAST_SHARE])).tolist()
-    # SciPy's inverse of the normal distribution is correct to 15 digits, so it may decrease a bit.
+    # SciPy's inverse of the normal distribution is correct to 15 digits; the last need not rise.
     wide = (least - 1e-14 * abs(least), greatest + 1e-14 * abs(greatest))
     least, greatest = np.clip(wide, lower, upper).tolist()
     if least < 0:

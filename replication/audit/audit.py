@@ -99,7 +99,6 @@ class Audit(Results):
         is_open = assessment.verdict.is_open
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         ends = interval and (interval.lower, interval.upper)
-        restates = claim.computation is not None and claim.computation.restates
         return r.filled(
             r.ClaimRecord,
             *(claim, claim.place, as_printed),
@@ -111,7 +110,7 @@ class Audit(Results):
             interval_exact=ends and tuple(end if end is None else str(end) for end in ends),
             interval_text=str(interval) if interval else None,
             verdict=assessment.verdict,
-            restates=claim.inputs["value"][0] if restates and "value" in claim.inputs else None,
+            restates=claim.inputs.get("value", (None,))[0] if claim.restates else None,
             error_in_last_digit=_error(claim, as_printed.computed),
             readings=others,
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},

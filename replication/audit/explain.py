@@ -18,7 +18,7 @@ from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.printed import parse
 from reference.units import to_si
 from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, Shown, SlipRecord
-from replication.audit.verdict import Judge, follows, restates
+from replication.audit.verdict import Judge, follows, is_consistent
 
 # A check in doubles
 
@@ -31,8 +31,8 @@ Values = Mapping[str, Fraction]
 
 def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> bool:
     """Return whether a claim agrees with its computation, in doubles, some entries changed."""
-    if claim.computations[reading].restates:
-        return restates(ledger, claim)
+    if claim.restates:
+        return is_consistent(ledger, claim)
     target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
     inputs = {name: float(changed.get(name, value)) for name, value in values.items()}
     try:
@@ -238,7 +238,7 @@ class Explainer:
     def ranked(self, names: Collection[str]) -> list[RepairRecord]:
         """Return the repairs that may explain several failures at once, likeliest first.
 
-        A misprint behind all of them stands in an entry that all rest on, so only such entries are
+        A misprint behind all of them is in an entry that all depend on, so only such entries are
         tried. If these give no repair, those of the claim that is quickest to compute are returned.
         An input that fails only because the claims computed from it do is left out.
         """
@@ -254,7 +254,7 @@ class Explainer:
     def _cost(self, name: str) -> tuple[int, str]:
         """Return a key that sorts claims by the time to compute them, whole sheets last."""
         claim = self.ledger.claims.get(name)
-        if claim is None or claim.computation is None or claim.computation.restates:
+        if claim is None or not claim.is_computed:
             return 2 if self.ledger.equation_of(name) else 0, name
         return 1 + 2 * claim.by_scheme + claim.by_whole_sheet, name
 
@@ -288,7 +288,7 @@ class Explainer:
 
 
 _BISECTIONS = 40
-"""So many narrow the search to 1e-12 of its width, which is finer than any page shows."""
+"""This many narrow the search to 1e-12 of its width, which is finer than any page shows."""
 
 _BUDGET = 250
 """The most parts of a search; some 200 are needed for k_t, as the depth hardly depends on it."""

@@ -267,8 +267,7 @@ class Evidence:
             yield results.equation(pattern).verdict
         pattern, _, part = pattern.partition(".")
         for claim in ledger.claims.values():
-            computed = claim.computation is not None and not claim.computation.restates
-            if not computed or not fnmatch(claim.id, pattern):
+            if not claim.is_computed or not fnmatch(claim.id, pattern):
                 continue
             assessment = results.assessment(claim)
             if not under and not part:

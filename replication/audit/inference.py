@@ -83,8 +83,9 @@ class Inference:
         """
         if (convention.choices_exact and convention.header_exact) or not self.agreeing:
             return self.outer
-        to_nearest = replace(convention, rounding=Rounding.AWAY)
-        constraints, box = self.joint(to_nearest, {self.name: self.entry.search})
+        if convention.rounding is not Rounding.AWAY:
+            return self.admitted(replace(convention, rounding=Rounding.AWAY))
+        constraints, box = self.joint(convention, {self.name: self.entry.search})
         return Interval(*bounds(constraints, self.name, box))
 
     def _rounded(self, name: str, convention: Convention) -> Ends:

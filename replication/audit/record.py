@@ -37,7 +37,7 @@ class Verdict(StrEnum):
 
     @property
     def is_failure(self) -> bool:
-        """Whether the entry contradicts the rest of the report; `--exit-code` reports these."""
+        """Whether the entry contradicts the rest of the report; `--exit-code` reports claims."""
         return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
 
     @property

@@ -28,8 +28,8 @@ class Judgement(msgspec.Struct, frozen=True):
 
     `ends` is a range proven to contain the value, in the claim's unit: if the printed inputs give
     the number, for these and all admitted values of the inferred inputs; else for all inputs that
-    print like the report's. If the printed inputs do not give the number, `witness` holds inputs
-    (SI) that do, if some are known; it has the mass in place of a radius computed from the mass.
+    print like the report's. Unless the number is reproduced, `witness` holds inputs (SI) that give
+    it, if some are known; it has the mass in place of a radius computed from the mass.
     `against_evidence`: some value in the range prints like the claim, but it is proven that no
     inputs give both it and the numbers from which an input is inferred.
     """
@@ -44,8 +44,9 @@ class Judgement(msgspec.Struct, frozen=True):
 class Reading(msgspec.Struct, frozen=True):
     """The result of one computation of a claim, by one reading of the report; in the claim's unit.
 
-    `computed` is the replica's double for the inputs as printed, `reference` the same value to 25
-    digits; `judgements` has one judgement for every convention, the usual one first.
+    `computed` is the models' double for the inputs as printed (in a ledger with a misprint, that of
+    the ledger's formula), `reference` the same value to 25 digits; `judgements` has one judgement
+    for every convention, the usual one first.
     """
 
     name: str
@@ -73,13 +74,13 @@ class Assessment(msgspec.Struct, frozen=True):
     readings: tuple[Reading, ...] = ()
 
 
-def restates(ledger: Ledger, claim: Claim) -> bool:
-    """Return whether a claim that repeats a number, or counts numbers, agrees with them.
+def is_consistent(ledger: Ledger, claim: Claim) -> bool:
+    """Return whether a claim that restates agrees with the number it repeats, or with the count.
 
-    A repetition agrees if some value prints like both texts; a bound must be satisfied by it.
+    It agrees with a number if some value prints like both or, for a bound, prints like that number
+    and satisfies the bound.
     """
-    assert claim.computation is not None
-    if claim.computation.name == "count":
+    if "value" not in claim.inputs:
         return claim.target().contains(Fraction(len(claim.inputs)))
     (name,) = claim.inputs["value"]
     # A choice or an exact number is one value; a bound or an "about" has an interval of its own.
@@ -131,8 +132,8 @@ class Judge:
         It is "not reproduced", with the reason, if the computation has no value for the inputs as
         printed.
         """
-        if claim.computation is not None and claim.computation.restates:
-            agrees = restates(self.ledger, claim)
+        if claim.restates:
+            agrees = is_consistent(self.ledger, claim)
             return Assessment(Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)

@@ -30,13 +30,13 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     relation, shown = "as" if interval.is_point else "in", str(interval).replace("E", "e")
     value = quantity(number(first.computed), claim.unit)
     reason = _reason(judge, claim, first.judgements[0])
-    sentences = [f"{what}: {value}, {inside}{relation} {shown}.", *filter(None, [reason])]
+    sentences = [f"{what}: {value}, {inside}{relation} {shown}.", reason]
     for reading in others:
         value = quantity(number(reading.computed), claim.unit)
         proven, but = between(reading.judgements[0].ends, 6), _exceptions(claim, reading)
         verdict = f"{reading.verdict}{f' ({but})' * bool(but)}"
         sentences.append(f"Read as {reading.name}: {value}, {verdict}; proven range {proven}.")
-    return " ".join(sentences)
+    return " ".join(filter(None, sentences))
 
 
 def origin(claim: Claim) -> str:

@@ -233,9 +233,7 @@ def bench(
     with tempfile.TemporaryDirectory() as empty:
         numba.config.CACHE_DIR = empty  # so that everything is compiled again
         arrays.compiled.cache_clear()
-        numba.vectorize(["f8(f8)"])(
-            error_for
-        )  # start the compiler, which is not part of any method's time
+        numba.vectorize(["f8(f8)"])(error_for)  # starts the compiler, which is no method's cost
         for case in cases:
             trials = [trial(case, task, repeat, limit) for task in tasks(case)]
             with tqdm(trials * (1 + repeat), case.name, leave=False, disable=quiet) as turns:

@@ -21,9 +21,9 @@ LEAST, GREATEST = 1e-40, 1e40
 """`check_range` accepts all inputs in this range, as its products have at most six factors."""
 
 PIECE = 125_000
-"""Final depths in a piece of work; two pieces and more are shared out to the cores. A piece takes
-1.4 to 5 ms, and starting the threads from 0.2 to 2 ms: sharing out less work often loses time. A
-million cases still keep eight cores busy."""
+"""Final depths in a piece of work; two or more pieces are shared among the cores. A piece takes 1.4
+to 5 ms, and starting the threads 0.2 to 2 ms: sharing less work often loses time. A million cases
+still keep eight cores busy."""
 
 _DOC = """
 
@@ -258,7 +258,7 @@ def _without_result(case: Mapping[str, float], result: float) -> InputError:
 
 
 def _each(model: Model, *values: Any) -> Any:
-    """Return the compiled model's results for values that broadcast; on all cores if they are many.
+    """Return the compiled model's results for values that broadcast, on all cores if it pays.
 
     The times of histories are a last axis of their own. The work is shared among Python threads,
     which run at the same time because compiled code releases Python's lock. Numba's own threads

@@ -3,7 +3,7 @@
 With y = x/R and u = v/V, and time in units of R/V, Eq. 13 is polynomial up to y = 1: y' = u and
 u' = -(b u^2 + c) (2y - y^2), where b = 3 rho_t / (8 rho_p) and c = 3 R_t / (4 rho_p V^2). So each
 coefficient of the series follows from the previous ones by products of series. Beyond y = 1 the
-last factor is 1, and u is a tangent.
+last factor is 1, and u is a tangent of time.
 
 The order and the steps are those of Jorba and Zou (2005) for double precision: the radius of
 convergence r is estimated from the last two coefficients of the velocity, and a step is r / e^2
@@ -58,7 +58,7 @@ def history(
                 for i in range(count):
                     depth[batch + i], speed[batch + i] = scratch[1][i], scratch[2][i] / unit
             k = max(k, first + 1)
-    rest = (reached + _time_beyond(0.0, b, c, at_radius)) * R / V
+    rest = (reached + _time_beyond(final, 0.0, b, c, at_radius)) * R / V
     for k in range(len(time)):
         y, u = depth[k], speed[k]
         if time[k] >= rest:
@@ -70,11 +70,11 @@ def history(
 
 def _are_rising(time: Array) -> bool:
     """Return whether no time is earlier than the one before it. Raises as `history` does."""
-    rising, before = True, 0.0
+    rising = True
     for k in range(len(time)):
         if not 0 <= time[k] < math.inf:
             raise ValueError("a time must be finite, and zero or more")
-        rising, before = rising and before <= time[k], time[k]
+        rising = rising and (k == 0 or time[k - 1] <= time[k])
     return rising
 
 
@@ -123,7 +123,7 @@ def _time(
         if u > 0 and (at >= y or dy <= u * unit):
             return (start + _locate(terms, y, u * unit, b, c * unit * unit, length) * unit) * R / V
         reached = start + length * unit
-    return (reached + _time_beyond(u, b, c, at_radius)) * R / V
+    return (reached + _time_beyond(y, u, b, c, at_radius)) * R / V
 
 
 def _equation(
@@ -137,26 +137,31 @@ def _equation(
     return b, c, final, at_radius
 
 
-# Beyond y = 1, where u = k tan(constant - w t) with k^2 = c/b and w^2 = b c
+# Beyond y = 1, where u = k tan(constant - w t) with k^2 = c/b and w = k b (b c might underflow)
 
 
 def _beyond(time: float, b: float, c: float, at_radius: float) -> tuple[float, float]:
     """Return y and u at a time after the passage through y = 1, in a form without cancellation."""
-    k, half = math.sqrt(c / b), math.sqrt(b * c) * time / 2
+    k = math.sqrt(c / b)
+    half = k * b * time / 2
     sine, cosine = math.sin(half), math.cos(half)
     growth = 2 * sine * (at_radius / k * cosine - sine)
     u = (at_radius * (1 - 2 * sine * sine) - 2 * k * sine * cosine) / (1 + growth)
     return 1 + math.log1p(growth) / b, u
 
 
-def _time_beyond(u: float, b: float, c: float, at_radius: float) -> float:
-    """Return the time from y = 1 until the velocity is u; 0 if the motion ends before."""
-    k = math.sqrt(c / b)
-    return math.atan2(k * (at_radius - u), k * k + at_radius * u) / math.sqrt(b * c)
+def _time_beyond(y: float, u: float, b: float, c: float, at_radius: float) -> float:
+    """Return the time from y = 1 to the depth y and velocity u; 0 if the motion ends before."""
+    k, lost = math.sqrt(c / b), at_radius - u
+    if at_radius > 0 and lost < u:
+        # The difference has lost digits. The energy integral gives it from y.
+        lost = -(at_radius * at_radius + k * k) * math.expm1(2 * b * (1 - y)) / (at_radius + u)
+    return math.atan2(k * lost, k * k + at_radius * u) / (k * b)
 
 
 # Up to y = 1. The rows of `terms` are the coefficients of y, its derivative w, b w^2 + c, and
-# 2y - y^2. Times s along a series are counted from the start of its step, in the step's unit
+# 2y - y^2. Times s along a series are counted from the start of its step, in the step's unit of
+# time, in which w and c are, too
 
 
 def _steps(
@@ -207,6 +212,7 @@ def _expand(terms: Array, b: float, c: float) -> float:
         share = 1 / (k + 1)
         y_k, w_k = w_k * share, -product * share
         stress[k], area[k], y[k + 1], w[k + 1] = stress_k, area_k, y_k, w_k
+    # 0.05 keeps the step finite where the last coefficients vanish.
     size = max(abs(w_0), abs(w[1]))
     highest, before = abs(w[ORDER]) / size, abs(w[ORDER - 1]) / size
     inverse_radius: float = max(highest ** (1 / ORDER), before ** (1 / (ORDER - 1)), 0.05)

@@ -47,7 +47,7 @@ def expected(claim: Claim) -> str:
         return "remark, quantified"
     if claim.id in SOURCES:
         return f"{'agrees with' if SOURCES[claim.id] else 'differs from'} public sources"
-    if claim.id in SHOWN or (claim.computation is not None and claim.computation.restates):
+    if claim.id in SHOWN or claim.restates:
         return "consistent"
     if claim.computation is not None or (claim.within and claim.id not in TAKEN_OVER):
         return "reproduced"

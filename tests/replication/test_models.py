@@ -3,6 +3,7 @@
 import math
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from itertools import pairwise
 from typing import Any
 from unittest.mock import patch
@@ -99,6 +100,9 @@ def test_warnings_of_a_run(question: str, answer: str) -> None:
 
 ULP = 2.0**-52
 
+approx = partial(pytest.approx, abs=0)
+"""Times in seconds are so small that pytest's own absolute tolerance would allow anything."""
+
 
 def spread(low: float, high: float) -> st.SearchStrategy[float]:
     """Draw floats uniformly in the logarithm."""
@@ -158,14 +162,14 @@ def test_depth_velocity_and_time_follow_the_exact_motion(
     depth = float(at)
     # At a share s before the final depth, an ulp of depth becomes 1 / 2s ulps of v and of time.
     near_rest = bound / max(float(1 - at / truth.final_depth), ULP)
-    assert depth_at_velocity(v, *case) == pytest.approx(depth, rel=bound / (1 - share))
+    assert depth_at_velocity(v, *case) == approx(depth, rel=bound / (1 - share))
     stop = float(truth.stop_time(Fraction(v)))
-    assert stop_time(*case, stop_velocity=v) == pytest.approx(stop, rel=bound / (1 - share))
+    assert stop_time(*case, stop_velocity=v) == approx(stop, rel=bound / (1 - share))
     if depth < truth.final_depth:
         velocity = float(truth.velocity_at_depth(Fraction(depth)))
-        assert velocity_at_depth(depth, *case) == pytest.approx(velocity, rel=near_rest)
+        assert velocity_at_depth(depth, *case) == approx(velocity, rel=near_rest)
         time = float(truth.time_to_depth(Fraction(depth)))
-        assert time_to_depth(depth, *case) == pytest.approx(time, rel=near_rest)
+        assert time_to_depth(depth, *case) == approx(time, rel=near_rest)
 
 
 def check_history(case: tuple[float, ...], share: float) -> None:
@@ -185,7 +189,7 @@ def check_history(case: tuple[float, ...], share: float) -> None:
 @settings(max_examples=12)
 def test_history_is_exact_to_fourteen_digits(case: tuple[float, ...], share: float) -> None:
     check_history(case, share)
-    assert stop_time(*case) == pytest.approx(float(exact(case).stop_time()), rel=1e-14)
+    assert stop_time(*case) == approx(float(exact(case).stop_time()), rel=1e-14)
 
 
 @given(case=CASES, shares=st.lists(st.floats(0, 1.5), min_size=2, max_size=5))
@@ -213,6 +217,31 @@ def test_motions_that_end_near_the_radius(crossing: float) -> None:
     case = (500.0, 11e-6, 8900.0, 7850.0, resistance)
     for share in (0.7, 0.1, 1e-3, 1e-9):
         check_history(case, share)
+
+
+@given(CASES)
+def test_the_time_down_to_a_tiny_velocity_is_that_to_rest(case: tuple[float, ...]) -> None:
+    assert stop_time(*case, case[0] * 1e-200) == approx(stop_time(*case), rel=1e-14)
+
+
+@pytest.mark.parametrize("light", [1e-2, 1e-6])
+def test_times_in_a_light_target(light: float) -> None:
+    """The velocity hardly falls near the radius, so that the depth must tell the time."""
+    case = (500.0, 11e-6, 8900.0, 8900.0 * light, 3.5e5 * light)
+    for depth in (11.1e-6, 1e-4):
+        time = float(exact(case).time_to_depth(Fraction(depth)))
+        assert time_to_depth(depth, *case) == approx(time, rel=1e-14)
+
+
+def test_times_in_the_lightest_target() -> None:
+    case = (500.0, 11e-6, 1e120, 1.0, 1.25e-115)  # b c is less than the least double
+    # Almost all of the motion is beyond the radius: a quarter of the tangent's period.
+    b, b_over_c = 0.375e-120, 0.5 * 500.0**2 / 1.25e-115
+    stop = 11e-6 / 500.0 * math.pi / 2 * math.sqrt(b_over_c) / b
+    assert stop_time(*case) == approx(stop, rel=1e-13)
+    for depth in (0.0, 1e-6, 2e-5):
+        assert velocity_at_depth(depth, *case) == approx(500.0, rel=1e-13)  # ln p is 280
+        assert time_to_depth(depth, *case) == approx(depth / 500.0, rel=1e-13)
 
 
 @given(st.floats(1e-6, 0.5))

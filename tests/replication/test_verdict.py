@@ -25,7 +25,7 @@ JUDGE = Judge(LEDGER)
 def witnesses() -> Iterator[tuple[str, str, Judgement]]:
     """Every judgement with a witness, with its claim and its reading."""
     for claim in LEDGER.claims.values():
-        if claim.computation is not None and not claim.computation.restates:
+        if claim.is_computed:
             for reading in JUDGE.assess(claim).readings:
                 for judgement in reading.judgements:
                     if judgement.witness is not None:
