@@ -203,7 +203,8 @@ class Dual(Operators):
         return Dual(quotient, {name: slope / other.value for name, slope in slopes.items()})
 
     def __pow__(self, exponent: int) -> "Dual":
-        return self.scaled(self.value**exponent, self.value ** (exponent - 1) * exponent)
+        slope = self.value ** (exponent - 1) * exponent if exponent else 0
+        return self.scaled(self.value**exponent, slope)
 
 
 def _added(first: Mapping[str, Number], second: Mapping[str, Number]) -> Mapping[str, Number]:

@@ -256,3 +256,10 @@ def test_an_assertion_can_fail(question: str, answer: str) -> None:
     inside, outside = map(json.loads, answer.split("; "))
     assert assertion.holds(inside)
     assert not assertion.holds(outside)
+
+
+def test_a_power_misprinted_as_zero_is_audited() -> None:
+    from replication.audit.audit import Audit
+
+    audit = Audit(load().misprint("eq16-power", "0"), every_convention=False)
+    assert all(audit.assessment(claim) for claim in audit.ledger.claims.values())
