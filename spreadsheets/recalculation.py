@@ -31,7 +31,7 @@ _MAX_EXPANSIONS = 200
 
 MAX_WORK = 20_000_000
 """How many cells all formulas together may read: an engine takes some seconds for these."""
-_TOO_MUCH = "the formulas before it read too many cells already"
+_TOO_MUCH = "together with the formulas before it, it reads too many cells"
 
 _FEW = 3
 """Where all formulas store 0, so few wrong values are stale; more were never calculated."""
@@ -449,9 +449,11 @@ def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position,
     refused = {}
     work = 0
     for place, formula in formulas.items():
-        # At worst, an engine compares every cell of a range with every cell of another.
-        sizes = (_filled(area, book).cells for area in formula.areas if area.cells > 1)
-        cost = math.prod(sizes) + len(formula.pieces)
+        # At worst, an engine compares every cell of a range with every cell of another. It also
+        # goes through the cells beyond those in use, except in whole columns and rows.
+        ranges = [area for area in formula.areas if area.cells > 1]
+        cost = math.prod(_filled(area, book).cells for area in ranges) + len(formula.pieces)
+        cost += sum(_without_unused_ends(area, book).cells for area in ranges)
         if work + cost > MAX_WORK:
             refused[place] = _TOO_MUCH
             continue
@@ -466,6 +468,16 @@ def _refused(book: Book, formulas: Mapping[Position, Formula]) -> dict[Position,
         ):
             refused[place] = "the engine does not test each cell of a range"
     return refused
+
+
+def _without_unused_ends(area: Area, book: Book) -> Area:
+    """The area; of whole columns or rows the part that the sheet uses."""
+    used = _filled(area, book)
+    if (area.top, area.bottom) == (1, LAST_ROW):
+        area = area._replace(bottom=used.bottom)
+    if (area.left, area.right) == (1, LAST_COLUMN):
+        area = area._replace(right=used.right)
+    return area
 
 
 def _filled(area: Area, book: Book) -> Area:

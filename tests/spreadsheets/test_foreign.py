@@ -222,6 +222,14 @@ def test_formulas_that_read_too_much_are_left_alone(
     assert calculation.values["Sheet", 2, 2] == 0.2
 
 
+@pytest.mark.parametrize("cells", ["B2:XFD1048576", "B1:XFD1048575", "B2:Z1048576"])
+def test_a_formula_that_reads_nearly_all_of_a_sheet_is_left_alone(plain: Path, cells: str) -> None:
+    """An engine would go through billions of blanks; whole columns end with what is used."""
+    rows = '<row r="100"><c r="A100"><f>SUM({})</f></c><c r="B100"><f>SUM(C:XFD)</f></c></row>'
+    calculation = calculate(read(spoiled(plain, adding(rows.format(cells).encode()))))
+    assert list(calculation.uncomputed) == [("Sheet", 100, 1)]
+
+
 def test_an_ods_file_without_libreoffice_says_what_to_do(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
