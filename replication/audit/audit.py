@@ -20,8 +20,9 @@ from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.findings import Evidence, Results
+from replication.audit.findings import Evidence
 from replication.audit.record import Verdict
+from replication.audit.results import Results
 from replication.audit.verdict import Judgement, Reading
 from replication.models import sheet
 from replication.text import number, powers_of_ten
@@ -93,7 +94,7 @@ class Audit(Results):
 
     def claim(self, claim: Claim) -> r.ClaimRecord:
         """Return the record of one claim."""
-        assessment = self.assessment(claim)
+        assessment = self.judge.assess(claim)
         readings = [self._reading(claim, reading) for reading in assessment.readings]
         as_printed, *others = readings or [_NO_READING]
         is_open = assessment.verdict.is_open
@@ -115,10 +116,10 @@ class Audit(Results):
             readings=others,
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
             assumes=wording.assumptions(self.judge, claim, as_printed.computed),
-            explanation=assessment.reason,
+            explanation=wording.explanation(self.judge, claim, assessment),
             **self._worked(claim, as_printed.computed),
-            shown_by=self.shown(claim),
-            sources=self.sources(claim.id),
+            shown_by=self.judge.shown(claim),
+            sources=self.judge.sources(claim.id),
             figures=comparison.figures(self) if claim.kind == "remark" else [],
             back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
             repairs=self.explainer.repairs(claim.id) if is_open else [],
@@ -148,7 +149,7 @@ class Audit(Results):
         """
         nothing = dict.fromkeys(("formula", "mathml", "by_hand"))
         premises = claim.computation.premises if claim.computation else {}
-        wrong = self.assessment(claim).verdict is Verdict.NOT_REPRODUCED
+        wrong = self.judge.assess(claim).verdict is Verdict.NOT_REPRODUCED
         if computed is None or not wrong or not premises:
             return nothing
         *_, premise = premises.values()  # the last may give the value itself
@@ -190,7 +191,7 @@ class Audit(Results):
     # Equations and inferred inputs
 
     def _equation(self, name: str) -> r.EquationRecord:
-        assessed = self.equation(name)
+        assessed = self.judge.equation(name)
         place = assessed.equation.place
         return r.filled(
             r.EquationRecord,
@@ -223,7 +224,7 @@ class Audit(Results):
             possible_with_rounded_inputs=rounded and _doubles(*rounded.scaled(si).ends),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
-            sources=[] if centered else self.sources(INFERRED + name),
+            sources=[] if centered else self.judge.sources(INFERRED + name),
         )
 
 

@@ -15,7 +15,7 @@ from typing import Any, TypeVar
 
 from reference.ledger import Convention
 from replication.audit import record as r
-from replication.audit.findings import DENSITY, DERIVED, Results, case, exact_ratio
+from replication.audit.results import DENSITY, DERIVED, Results, case, exact_ratio
 from replication.models import depth, motion, sheet
 from replication.models.crater import crater_depth, depth_from_volume_ratio
 from replication.models.impact import InputError

@@ -18,24 +18,17 @@ from reference import findings as asserted
 from reference.arithmetic import Arithmetic, Floats, Number
 from reference.enclosure import enclose, solve
 from reference.equations import evaluate
-from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, claims_of_case
+from reference.ledger import Convention
 from reference.printed import Interval, Rounding
 from reference.units import same_dimension, to_si
 from replication.audit import record as r
-from replication.audit import wording
-from replication.audit.explain import SHEET_BUDGET, Explainer
-from replication.audit.inference import Admission, Inference
-from replication.audit.record import Verdict
-from replication.audit.verdict import Assessment, Judge, Reading, assess_equation
+from replication.audit.explain import SHEET_BUDGET
+from replication.audit.inference import Inference
+from replication.audit.results import DENSITY, DERIVED, Results, case, exact_ratio
 from replication.models import depth, estimates, sheet
-from replication.models.impact import Impact
 
 Value = Fraction | float | bool
 """The value of a piece of evidence: a number in SI units, or the outcome of a proof."""
-
-DENSITY = INFERRED + "target-density"
-DERIVED = "derived from Eqs. 14 and 15"
-"""The name of the reading of Eq. 16 that does not take it as printed."""
 
 _READINGS = {"computed": "", "derived": DERIVED}
 """The readings of a claim, by the words for them in findings.toml."""
@@ -46,88 +39,6 @@ _CONVENTIONS = {
     "rounded": Convention(choices_exact=False),
 }
 """How inputs are taken: header and choices exact, only the header rounded, or both rounded."""
-
-
-class Results:
-    """A ledger and what is derived from it, such as verdicts; each result is computed once."""
-
-    def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
-        self.ledger = ledger
-        self.judge = Judge(ledger, every_convention=every_convention)
-        self.explainer = Explainer(self.judge)
-        # Cached by this object and not by the functions, so that the results are freed with it.
-        self.equation = cache(partial(assess_equation, ledger))
-        self.assessment = cache(self._assess)
-        self.shown = cache(self.explainer.shown)
-        self.sources = cache(self._sources)
-
-    def _assess(self, claim: Claim) -> Assessment:
-        if claim.kind == "remark":
-            return Assessment(Verdict.REMARK, wording.REMARK)
-        if claim.within is None and claim.computation is not None:
-            assessed = self.judge.assess(claim)
-            return replace(assessed, reason=wording.explanation(self.judge, claim, assessed))
-        constant = self.equation(claim.within).constants.get(claim.id) if claim.within else None
-        reason = wording.constant_explanation(self.ledger, claim, constant) if constant else ""
-        if constant and constant.verdict != Verdict.NOT_CHECKABLE:
-            return Assessment(constant.verdict, reason)
-        if sources := self.sources(claim.id):
-            agrees = any(source.agrees for source in sources)
-            verdict = Verdict.AGREES if agrees else Verdict.DIFFERS
-            return Assessment(verdict, reason or wording.sources(self.ledger, claim, sources))
-        if claim.shown_by:
-            shown = self.shown(claim)
-            verdict = Verdict.CONSISTENT if shown else Verdict.INCONSISTENT
-            return Assessment(verdict, reason or wording.fitting(self.ledger, claim, shown))
-        undecided = f"Nothing in the report decides it: {claim.why}."
-        return Assessment(Verdict.NOT_CHECKABLE, reason or undecided)
-
-    def admission(self, source: Source) -> Admission:
-        """Return whether the evidence for an inferred input admits a public source's value."""
-        (name,) = source.claims
-        return self.judge.inference(name).admits(source.value, source.interval)
-
-    def _sources(self, name: str) -> list[r.SourceRecord]:
-        """Return the public sources for a claim or an inferred input, each compared with it."""
-        records = []
-        for source in self.ledger.sources_of(name):
-            if name.startswith(INFERRED):
-                admission = self.admission(source)
-                agrees, outcome = admission is Admission.ADMITTED, f"is {admission.value}"
-            else:
-                agrees = self.ledger.claims[name].target().meets(source.interval)
-                outcome = "agrees" if agrees else "differs"
-            records.append(r.filled(r.SourceRecord, source, agrees=agrees, outcome=outcome))
-        return records
-
-    def exact(self, name: str) -> Fraction:
-        """Return a claim's printed, an inferred input's assumed, or a source's value, in SI."""
-        sources = self.ledger.sources
-        return sources[name].value if name in sources else self.judge.value(name)
-
-    def __getitem__(self, name: str) -> float:
-        """Return the value that `exact` gives, as a double."""
-        return float(self.exact(name))
-
-    def reading(self, claim: str, name: str = "") -> Reading:
-        """Return one reading of a claim. Raises ArithmeticError if it has no value."""
-        for reading in self.assessment(self.ledger.claims[claim]).readings:
-            if reading.name == name:
-                return reading
-        raise ArithmeticError(f"{claim} has no value")
-
-
-def case(results: Results, beta: int, /, **changed: float) -> Impact:
-    """Return the report's case with this beta, some of its inputs changed (SI)."""
-    inputs = {name: results[claim] for name, claim in claims_of_case(beta).items()}
-    if "resistance" in changed:
-        del inputs["beta"], inputs["flow_stress"]
-    return Impact(**{**inputs, **changed})
-
-
-def exact_ratio(impact: Impact) -> float:
-    """Return the exact final X/R [1] of the model (Eqs. 12-13)."""
-    return depth.final_depth(**impact.motion) / impact.radius
 
 
 class Evidence:
@@ -203,10 +114,10 @@ class Evidence:
                 slips = results.explainer.slips(ledger.claims[entry])
                 return Fraction(sum(bool(slip.fits) for slip in slips))
             case ("factor",):
-                factor = results.equation(entry).factor
+                factor = results.judge.equation(entry).factor
                 return Fraction(0) if factor is None else 1 / factor
             case ("needed",):
-                constants = results.equation(ledger.claims[entry].within).constants
+                constants = results.judge.equation(ledger.claims[entry].within).constants
                 (value,) = constants[entry].needed
                 return Fraction(value)
             case (*settings, "odd"):
@@ -262,14 +173,14 @@ class Evidence:
         """
         results, ledger = self.results, self.results.ledger
         if pattern in ledger.sources:
-            yield results.admission(ledger.sources[pattern]).value
+            yield results.judge.admission(ledger.sources[pattern]).value
         if pattern in ledger.equations:
-            yield results.equation(pattern).verdict
+            yield results.judge.equation(pattern).verdict
         pattern, _, part = pattern.partition(".")
         for claim in ledger.claims.values():
             if not claim.is_computed or not fnmatch(claim.id, pattern):
                 continue
-            assessment = results.assessment(claim)
+            assessment = results.judge.assess(claim)
             if not under and not part:
                 yield assessment.verdict
                 continue

@@ -14,17 +14,38 @@ REMARK = "A remark, not a number: the figures below help to judge it."
 
 
 def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
-    """Explain the verdict on a claim that has a computation, or repeats another claim."""
-    if assessed.reason:
-        return f"With the numbers as printed it cannot be computed: {assessed.reason}."
-    if not assessed.readings:
-        if "value" not in claim.inputs:
-            return f"The report lists {len(claim.inputs)}."
-        restated = judge.ledger.claims[claim.inputs["value"][0]]
-        but = "" if assessed.verdict is Verdict.CONSISTENT else ", which does not agree"
-        shown = quantity(restated.shown, restated.unit)
-        return f"It repeats or compares with {shown} ({restated.title}){but}."
-    first, *others = assessed.readings
+    """Explain the verdict on a claim by what it rests on."""
+    ledger = judge.ledger
+    if assessed.verdict is Verdict.REMARK:
+        return REMARK
+    if assessed.no_value:
+        return f"With the numbers as printed it cannot be computed: {assessed.no_value}."
+    if assessed.readings:
+        return recomputation(judge, claim, assessed.readings)
+    if (constant := judge.constant(claim)) is not None:
+        return constant_explanation(ledger, claim, constant)
+    if claim.restates:
+        return repetition(ledger, claim, assessed.verdict)
+    if records := judge.sources(claim.id):
+        return sources(ledger, claim, records)
+    if claim.shown_by:
+        return fitting(ledger, claim, judge.shown(claim))
+    return f"Nothing in the report decides it: {claim.why}."
+
+
+def repetition(ledger: Ledger, claim: Claim, verdict: Verdict) -> str:
+    """Explain the verdict on a claim that repeats another number of the report, or counts."""
+    if "value" not in claim.inputs:
+        return f"The report lists {len(claim.inputs)}."
+    restated = ledger.claims[claim.inputs["value"][0]]
+    but = "" if verdict is Verdict.CONSISTENT else ", which does not agree"
+    shown = quantity(restated.shown, restated.unit)
+    return f"It repeats or compares with {shown} ({restated.title}){but}."
+
+
+def recomputation(judge: Judge, claim: Claim, readings: Sequence[Reading]) -> str:
+    """Explain the verdict on a claim that is computed: the value by each reading, and the proof."""
+    first, *others = readings
     what, interval = first.summary[:1].upper() + first.summary[1:], claim.interval()
     inside = "" if first.verdict is Verdict.REPRODUCED else "not "
     relation, shown = "as" if interval.is_point else "in", str(interval).replace("E", "e")

@@ -262,4 +262,4 @@ def test_a_power_misprinted_as_zero_is_audited() -> None:
     from replication.audit.audit import Audit
 
     audit = Audit(load().misprint("eq16-power", "0"), every_convention=False)
-    assert all(audit.assessment(claim) for claim in audit.ledger.claims.values())
+    assert all(audit.judge.assess(claim) for claim in audit.ledger.claims.values())

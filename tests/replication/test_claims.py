@@ -13,8 +13,9 @@ from reference.findings import Assertion
 from reference.findings import load as load_findings
 from reference.ledger import INFERRED, Claim, Ledger, load
 from replication.audit.audit import audit
-from replication.audit.findings import Evidence, Results
+from replication.audit.findings import Evidence
 from replication.audit.record import FindingRecord, Record
+from replication.audit.results import Results
 
 LEDGER = load()
 
