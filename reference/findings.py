@@ -39,9 +39,7 @@ class Assertion(Entry, frozen=True):
     exact: Mapping[str, str] = {}
     run: Mapping[str, str] = {}
     verdicts: Mapping[str, str] = {}
-    under: Mapping[
-        Literal["rounding", "choices_exact", "header_exact", "centered"], Rounding | bool
-    ] = {}
+    under: Mapping[Literal["rounding", "choices_exact", "header_exact"], Rounding | bool] = {}
     words: str = ""
 
     @property

@@ -15,6 +15,7 @@ from typing import Any
 
 from reference.ledger import Convention, Ledger, load
 from reference.printed import Interval, Printed
+from reference.scheme import Scheme
 from reference.units import to_si
 from replication.audit.record import Record, Verdict, in_words
 from replication.cases import BETA_3, BETA_5
@@ -65,8 +66,8 @@ def build(
     """Build the workbook of a case; without a case, the report's own.
 
     The report's own has both of its cases, and what concerns only the report: the sheets with its
-    longer time step, the check of Table A-1, and the audit. scheme: one of `SCHEMES`. rows: how
-    many to prepare after row 0; by default twice as many as the longest case takes. record: the
+    longer time step, the check of Table A-1, and the audit. scheme: a `Scheme`, or its text. rows:
+    how many to prepare after row 0; by default twice as many as the longest case takes. record: the
     finished audit, which is made if it is needed but not given. Each input is rounded to a value
     that its cell can hold. Raises ValueError for an input outside of its limits, or too few rows.
 
@@ -115,7 +116,7 @@ def build(
 
 def findings_of(record: Record, scheme: str, ledger: Ledger) -> Findings:
     """Return what the workbook shows of the audit, with the verdicts under the given scheme."""
-    convention = in_words(Convention(centered=scheme == "centered"))
+    convention = in_words(Convention(scheme=Scheme(scheme)))
     verdicts, explanations = {}, {}
     for claim in record.claims:
         verdicts[claim.id], explanations[claim.id] = claim.verdict, claim.explanation

@@ -17,6 +17,7 @@ from reference import ledger as ledgers
 from reference.arithmetic import Floats
 from reference.equations import MATHML, PLAIN, NoValueError, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.scheme import Scheme
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
@@ -24,7 +25,6 @@ from replication.audit.findings import Evidence
 from replication.audit.record import Verdict
 from replication.audit.results import Results
 from replication.audit.verdict import Judgement, Reading
-from replication.models import sheet
 from replication.text import number, powers_of_ten
 
 
@@ -46,7 +46,7 @@ class Audit(Results):
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
         counts = self._counts(claims, equations)
         count = "1 number fails." if counts.failing == 1 else f"{counts.failing} numbers fail."
-        inferred = product(self.ledger.inferred, sheet.SCHEMES)
+        inferred = product(self.ledger.inferred, Scheme)
         return r.Record(
             schema=r.SCHEMA,
             headline=headline.statement if headline.holds else count,
@@ -206,12 +206,12 @@ class Audit(Results):
             repairs=self.explainer.repairs(name) if assessed.verdict.is_failure else [],
         )
 
-    def _inferred(self, name: str, scheme: str) -> r.InferredRecord:
-        centered = scheme == "centered"
-        inference = self.judge.inference(INFERRED + name, centered=centered)
+    def _inferred(self, name: str, scheme: Scheme) -> r.InferredRecord:
+        is_usual = scheme is Scheme.PUBLISHED
+        inference = self.judge.inference(INFERRED + name, scheme=scheme)
         entry, si = inference.entry, 1 / to_si(inference.entry.unit)
         inner = inference.inner.scaled(si).ends
-        rounded = None if centered else inference.admitted(Convention())
+        rounded = inference.admitted(Convention()) if is_usual else None
         return r.filled(
             r.InferredRecord,
             entry,
@@ -224,7 +224,7 @@ class Audit(Results):
             possible_with_rounded_inputs=rounded and _doubles(*rounded.scaled(si).ends),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
-            sources=[] if centered else self.judge.sources(INFERRED + name),
+            sources=self.judge.sources(INFERRED + name) if is_usual else [],
         )
 
 

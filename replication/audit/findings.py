@@ -20,6 +20,7 @@ from reference.enclosure import enclose, solve
 from reference.equations import evaluate
 from reference.ledger import Convention
 from reference.printed import Interval, Rounding
+from reference.scheme import Scheme
 from reference.units import same_dimension, to_si
 from replication.audit import record as r
 from replication.audit.explain import SHEET_BUDGET
@@ -143,7 +144,8 @@ class Evidence:
     def _inference(self, entry: str, *settings: str) -> Inference:
         rounding = Rounding.CUT if "cut" in settings else Rounding.AWAY
         inference = self.results.judge.inference
-        return inference(entry, centered="centered" in settings, rounding=rounding)
+        scheme = Scheme.CENTERED if "centered" in settings else Scheme.PUBLISHED
+        return inference(entry, scheme=scheme, rounding=rounding)
 
     def calculated(self, formula: str, ar: Arithmetic | None = None, /, **numbers: Number) -> Any:
         """Return the value of a formula, exact unless a logarithm or a root is taken.
@@ -163,7 +165,7 @@ class Evidence:
         """Return what the sheet gives for a claim in another row or scheme or with other inputs."""
         computed = self.results.ledger.claims[claim].resting_on(**inputs)
         computed = replace(computed, row=int(self.value(row))) if row else computed
-        return self.results.judge.modelled(computed, scheme=scheme)
+        return self.results.judge.modelled(computed, scheme=Scheme(scheme))
 
     def _verdicts(self, pattern: str, under: Mapping[Any, object]) -> Iterator[str]:
         """Yield the verdicts on the source, the equation and the computed claims with such an id.
@@ -224,7 +226,7 @@ class _Exact(Floats):
 # Evidence that no formula expresses
 
 
-def _order(evidence: Evidence, scheme: str) -> float:
+def _order(evidence: Evidence, scheme: Scheme) -> float:
     """Return the observed order of the error at 10 ns, from steps of 0.2 and 0.1 ns, for beta = 5.
 
     At 10 ns the particle is still fast, so that the stop rule has no influence.
@@ -242,7 +244,7 @@ def _order(evidence: Evidence, scheme: str) -> float:
 
 def _first_difference(evidence: Evidence) -> Fraction:
     """Return the first row in which the schemes' decelerations differ in three digits."""
-    runs = (sheet.run(case(evidence.results, 5), scheme).rows for scheme in sheet.SCHEMES)
+    runs = (sheet.run(case(evidence.results, 5), scheme).rows for scheme in Scheme)
     for number, rows in enumerate(zip(*runs, strict=False)):
         if len({f"{row.deceleration:.2E}" for row in rows}) > 1:
             return Fraction(number)
@@ -254,8 +256,8 @@ def _middle_density(evidence: Evidence) -> Fraction:
     ledger = evidence.results.ledger
     claim = ledger.claims["depth-beta-5"]
     printed = {name: ledger.value(name) for name in claim.stated}
-    function = ledger.function(claim, centered=True)
-    admitted = evidence.results.judge.inference(DENSITY, centered=True).outer.ends
+    function = ledger.function(claim, scheme=Scheme.CENTERED)
+    admitted = evidence.results.judge.inference(DENSITY, scheme=Scheme.CENTERED).outer.ends
     return solve(function, DENSITY, admitted, claim.target(), SHEET_BUDGET, printed).outer[0][0]
 
 
@@ -293,8 +295,8 @@ def _mean_deviation(evidence: Evidence) -> float:
 
 _BESIDES: Mapping[str, Callable[[Evidence], Value]] = {
     "frank-zook-values: nearest": _nearest,
-    "two-schemes: order_plain": partial(_order, scheme="published"),
-    "two-schemes: order_middle": partial(_order, scheme="centered"),
+    "two-schemes: order_plain": partial(_order, scheme=Scheme.PUBLISHED),
+    "two-schemes: order_middle": partial(_order, scheme=Scheme.CENTERED),
     "two-schemes: middle_density": _middle_density,
     "two-schemes: row": _first_difference,
     "table-columns: plus": _added,

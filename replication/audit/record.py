@@ -81,7 +81,7 @@ def in_words(convention: Convention) -> dict[str, Any]:
         "rounding": convention.rounding.value,
         "choices": "exact" if convention.choices_exact else "rounded",
         "header": "exact" if convention.header_exact else "rounded",
-        "scheme": "centered" if convention.centered else "published",
+        "scheme": convention.scheme,
     }
 
 

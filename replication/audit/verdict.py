@@ -15,6 +15,7 @@ from reference.equations import EquationError, dimension
 from reference.formulas import Check, Equation, derive
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, in_header
 from reference.printed import Interval, Rounding
+from reference.scheme import Scheme
 from reference.units import Dimension, DimensionError
 from replication.audit import record as r
 from replication.audit.inference import Admission, Inference
@@ -109,10 +110,10 @@ class Judge:
         self.sources = cache(self._sources)
 
     def inference(
-        self, name: str, *, centered: bool = False, rounding: Rounding = Rounding.AWAY
+        self, name: str, *, scheme: Scheme = Scheme.PUBLISHED, rounding: Rounding = Rounding.AWAY
     ) -> Inference:
         """Infer an unprinted input under one of the schemes, with the evidence so rounded."""
-        return self._inferences(name, centered=centered, rounding=rounding)
+        return self._inferences(name, scheme=scheme, rounding=rounding)
 
     @cached_property
     def assumed(self) -> Mapping[str, Fraction]:
@@ -191,7 +192,7 @@ class Judge:
         )
         return Reading(name, claim.computations[name].summary, computed, digits, in_unit)
 
-    def modelled(self, claim: Claim, reading: str = "", scheme: str = "published") -> float:
+    def modelled(self, claim: Claim, reading: str = "", scheme: Scheme = Scheme.PUBLISHED) -> float:
         """Return the models' value of a claim for its inputs as printed, in SI."""
         computation = claim.computations[reading]
         inputs = {key: float(prod(map(self.value, names))) for key, names in claim.inputs.items()}
@@ -203,13 +204,13 @@ class Judge:
     def _judgements(self, claim: Claim, reading: str) -> Iterator[Judgement]:
         """Yield a judgement for every convention that may matter, the usual first; ends in SI."""
         printed = self.printed(claim)
-        for centered in (False, True) if claim.by_scheme else (False,):
-            inferred = {e: self.inference(e, centered=centered).inner.ends for e in claim.inferred}
-            at_print = admitted = self._range(claim, reading, centered, printed)
+        for scheme in Scheme if claim.by_scheme else (Scheme.PUBLISHED,):
+            inferred = {e: self.inference(e, scheme=scheme).inner.ends for e in claim.inferred}
+            at_print = admitted = self._range(claim, reading, scheme, printed)
             if inferred:
-                admitted = self._range(claim, reading, centered, {**printed, **inferred})
+                admitted = self._range(claim, reading, scheme, {**printed, **inferred})
             for rounding in Rounding:
-                convention, target = Convention(rounding, centered=centered), claim.target(rounding)
+                convention, target = Convention(rounding, scheme=scheme), claim.target(rounding)
                 if target.excludes(*at_print):
                     conventions = _input_conventions(self.ledger, claim, convention)
                     yield from map(partial(self._search, claim, reading), conventions)
@@ -228,7 +229,7 @@ class Judge:
         Those must also give the numbers from which an input is inferred.
         """
         target = claim.target(convention.rounding)
-        function = self.ledger.function(claim, reading=reading, centered=convention.centered)
+        function = self.ledger.function(claim, reading=reading, scheme=convention.scheme)
         box = own_box = self.box(claim, convention)
         ends = enclose(function, box).ends
         if target.excludes(*ends):
@@ -237,7 +238,7 @@ class Judge:
         own = constraints = [(function, target)]
         witnessed, searches = set(claim.entries), dict[str, Ends]()
         for entry in claim.inferred:
-            inference = self.inference(entry, centered=convention.centered)
+            inference = self.inference(entry, scheme=convention.scheme)
             constraints, box = inference.joint(convention, box, constraints)
             searches[entry] = inference.entry.search
             if inference.entry.radius in witnessed - box.keys():  # computed from the mass
@@ -316,19 +317,20 @@ class Judge:
         """Return the values of an input (SI) that print like it, or that its evidence admits."""
         if entry in self.ledger.claims:
             return self.ledger.claims[entry].as_input(convention)
-        return self.inference(entry, centered=convention.centered).admitted(convention)
+        return self.inference(entry, scheme=convention.scheme).admitted(convention)
 
-    def _range(self, claim: Claim, reading: str, centered: bool, box: Box) -> Ends:
+    def _range(self, claim: Claim, reading: str, scheme: Scheme, box: Box) -> Ends:
         """Return a proven range of a claim's values, in SI.
 
         It is one exact value if every input that has influence is one value, and the result is
         rational: only then can it be proven to lie exactly on an end of a printed interval.
         """
-        function = self.ledger.function(claim, reading=reading, centered=centered)
+        function = self.ledger.function(claim, reading=reading, scheme=scheme)
         range_, computation = enclose(function, box), claim.computations[reading]
         decided = all(claim.target(rounding).decides(*range_.ends) for rounding in Rounding)
         # Fractions grow too long over a whole sheet, and in rows that square twice (centered).
-        long = computation.by_scheme and (not computation.by_row or (centered and decided))
+        squares_twice = scheme is Scheme.CENTERED
+        long = computation.by_scheme and (not computation.by_row or (squares_twice and decided))
         if long or any(box[entry][0] != box[entry][1] for entry in box.keys() - range_.idle):
             return range_.ends
         try:

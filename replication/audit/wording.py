@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval, Rounding
+from reference.scheme import Scheme
 from reference.units import to_si
 from replication.audit.record import ConstantRecord, Shown, SourceRecord, Verdict
 from replication.audit.verdict import Assessment, EquationAssessment, Judge, Judgement, Reading
@@ -109,7 +110,7 @@ def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
 def holds(claim: Claim, reading: Reading) -> str:
     """Say under which conventions the verdict holds, and which would change it."""
     tried = [judgement.convention for judgement in reading.judgements]
-    usual = [c for c in tried if (c.rounding, c.centered) == (tried[0].rounding, tried[0].centered)]
+    usual = [c for c in tried if (c.rounding, c.scheme) == (tried[0].rounding, tried[0].scheme)]
     names = {"choices_exact": "the author's choices", "header_exact": "the header of Table A-1"}
     varied = [name for key, name in names.items() if len({getattr(c, key) for c in usual}) > 1]
     scope = "three ways of rounding"
@@ -141,7 +142,7 @@ _UNUSUAL = (
     ("rounding", Rounding.CUT, "digits {cut_off}are cut off"),
     ("choices_exact", False, "what the author chose is rounded, too"),
     ("header_exact", True, "the header of Table A-1 is exact"),
-    ("centered", True, "the drag is taken at the middle velocity"),
+    ("scheme", Scheme.CENTERED, "the drag is taken at the middle velocity"),
 )
 """The settings of a convention that differ from the usual one, in words."""
 

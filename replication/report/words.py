@@ -14,11 +14,11 @@ from html.entities import html5
 from typing import NamedTuple
 
 from reference.ledger import shown
+from reference.scheme import Scheme
 from reference.units import superscript
 from replication.audit import record as r
 from replication.audit.comparison import SHARES
 from replication.cases import INPUTS
-from replication.models.sheet import SCHEMES
 from replication.text import Table, between, number, powers_of_ten, quantity, rounded
 
 
@@ -255,7 +255,7 @@ def ladders(record: r.Record) -> Table:
     for level in record.ladders:
         text = f"{level.depth * 1e6:.6f} ({level.error * 1e9:+.3f})"
         rows.setdefault(level.step, [f"{number(level.step * 1e9)} ns"]).append(text)
-    heads = (f"beta = {beta:g}, {SCHEMES[scheme].drag_at} velocity" for beta, scheme in columns)
+    heads = (f"beta = {beta:g}, {Scheme(scheme).drag_at} velocity" for beta, scheme in columns)
     caption = "Final depth of the sheet [um] (error [nm]), by the velocity at which drag is taken"
     return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
 
