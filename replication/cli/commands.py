@@ -81,10 +81,14 @@ def run_claims(options: argparse.Namespace) -> int:
         return _put(options, record, lambda: columns(rows, _width(piped=10_000)))
     if options.id in claims:
         from replication.audit.audit import Audit
+        from replication.audit.findings import findings_on
         from replication.report import proof
 
-        proven = Audit(ledger).claim(claims[options.id])
-        return _put(options, proven, lambda: proof(proven, ledger, _width(), _may_emphasize()))
+        audit = Audit(ledger)
+        proven, findings = audit.claim(claims[options.id]), findings_on(audit, options.id)
+        return _put(
+            options, proven, lambda: proof(proven, findings, ledger, _width(), _may_emphasize())
+        )
     from difflib import get_close_matches
 
     similar = ", ".join(get_close_matches(options.id[:80], list(claims), cutoff=0.4))
