@@ -12,7 +12,6 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
 from reference.equations import MATHML, PLAIN, NoValueError, evaluate, rendered
@@ -21,7 +20,7 @@ from reference.scheme import Scheme
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.findings import Evidence
+from replication.audit.findings import findings
 from replication.audit.record import Verdict
 from replication.audit.results import Results
 from replication.audit.verdict import Judgement, Reading
@@ -40,8 +39,7 @@ class Audit(Results):
         """Return the finished audit as data."""
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
-        findings = [Evidence(self, finding).record() for finding in asserted.load().values()]
-        headline = next(finding for finding in findings if finding.kind == "headline")
+        headline, *others = findings(self)
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
         counts = self._counts(claims, equations)
@@ -57,7 +55,7 @@ class Audit(Results):
             failing=failing,
             claims=claims,
             equations=equations,
-            findings=[finding for finding in findings if finding is not headline],
+            findings=others,
             inferred=[self._inferred(*pair) for pair in inferred],
             approaches=comparison.approaches(self),
             sensitivity=comparison.sensitivity(self),
@@ -281,7 +279,7 @@ def _provenance() -> dict[str, object]:
     """Return the versions of the programs in use and the hashes of the files that were read."""
     folder = resources.files("reference") / "report"
     libraries = ("coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter")
-    files = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")
+    files = ("de_rosset_2006.txt", "ledger.toml", "sources.toml")
     return {
         "command": "coldspray audit",
         "python": ".".join(map(str, sys.version_info[:3])),

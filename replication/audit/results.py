@@ -3,7 +3,10 @@
 from fractions import Fraction
 
 from reference.ledger import INFERRED, Ledger, claims_of_case
+from reference.printed import decimal_text
+from reference.units import to_si
 from replication.audit.explain import Explainer
+from replication.audit.record import Verdict
 from replication.audit.verdict import Judge, Reading
 from replication.models import depth
 from replication.models.impact import Impact
@@ -29,6 +32,39 @@ class Results:
     def __getitem__(self, name: str) -> float:
         """Return the value that `exact` gives, as a double."""
         return float(self.exact(name))
+
+    def text(self, name: str, unit: str | None = None) -> str:
+        """Return the number of a claim or a source as it is printed, or as a decimal in a unit.
+
+        >>> from reference.ledger import load
+        >>> results = Results(load())
+        >>> results.text("a1-resistance"), results.text("a1-resistance", "GPa")
+        ('3.50E+09', '3.5')
+        """
+        if unit is not None:
+            return decimal_text(self.exact(name) / to_si(unit))
+        sources = self.ledger.sources
+        return sources[name].says if name in sources else self.ledger.claims[name].shown
+
+    def last_digit(self, claim: str) -> Fraction:
+        """Return the unit of a claim's last printed digit, in SI."""
+        return self.ledger.claims[claim].number.quantum * self.ledger.claims[claim].si
+
+    def computed(self, claim: str, reading: str = "") -> float:
+        """Return what the models compute for a claim by one of its readings, in SI."""
+        return self.reading(claim, reading).computed * float(self.ledger.claims[claim].si)
+
+    def verdict(self, name: str) -> Verdict:
+        """Return the verdict on a claim or an equation."""
+        if name in self.ledger.equations:
+            return self.judge.equation(name).verdict
+        return self.judge.assess(self.ledger.claims[name]).verdict
+
+    def verdicts(self, prefix: str) -> set[Verdict]:
+        """Return the verdicts on all computed claims whose ids begin so."""
+        claims = self.ledger.claims.values()
+        computed = (c.id for c in claims if c.is_computed and c.id.startswith(prefix))
+        return {self.verdict(name) for name in computed}
 
     def reading(self, claim: str, name: str = "") -> Reading:
         """Return one reading of a claim. Raises ArithmeticError if it has no value."""

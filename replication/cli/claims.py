@@ -42,10 +42,12 @@ def run(options: argparse.Namespace) -> int:
         return put(options, record, lambda: columns(rows, width(piped=10_000)))
     if options.id in claims:
         from replication.audit.audit import Audit
+        from replication.audit.findings import findings_on
         from replication.report import proof
 
-        proven = Audit(ledger).claim(claims[options.id])
-        return put(options, proven, lambda: proof(proven, ledger, width(), may_emphasize()))
+        audit = Audit(ledger)
+        proven, on_it = audit.claim(claims[options.id]), findings_on(audit, options.id)
+        return put(options, proven, lambda: proof(proven, on_it, ledger, width(), may_emphasize()))
     similar = ", ".join(get_close_matches(options.id[:80], list(claims), cutoff=0.4))
     hint = f"similar ones: {similar}" if similar else "`coldspray claims` lists them"
     if options.id in ledger.equations:

@@ -198,7 +198,7 @@ def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
     return Table(caption, heads, rows)
 
 
-def evidence(finding: r.FindingRecord) -> Table:
+def evidence(finding: r.Finding) -> Table:
     """Return the numbers of a finding, as stated and as computed."""
     rows = [
         (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
@@ -207,12 +207,12 @@ def evidence(finding: r.FindingRecord) -> Table:
     return Table("The finding's numbers, recomputed", ("what", "stated", "computed"), rows)
 
 
-def computed(piece: r.EvidenceRecord) -> str:
+def computed(piece: r.Evidence) -> str:
     """Return a finding's computed number, with two digits more than the stated one.
 
     A number that must exceed a bound is rounded down, one that must stay below is rounded up.
 
-    >>> piece = r.EvidenceRecord(
+    >>> piece = r.Evidence(
     ...     name="", means="", unit="1", asserted=">= 1.147", computed=1.1475699, holds=True
     ... )
     >>> computed(piece)
