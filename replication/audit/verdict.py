@@ -230,27 +230,21 @@ class Judge:
         """
         target = claim.target(convention.rounding)
         function = self.ledger.function(claim, reading=reading, scheme=convention.scheme)
-        box = own_box = self.box(claim, convention)
+        box = self.box(claim, convention)
         ends = enclose(function, box).ends
         if target.excludes(*ends):
             return Judgement(convention, Verdict.NOT_REPRODUCED, ends)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
-        own = constraints = [(function, target)]
-        witnessed, searches = set(claim.entries), dict[str, Ends]()
+        constraints = [(function, target)]
+        witnessed = set(claim.entries)
         for entry in claim.inferred:
             inference = self.inference(entry, scheme=convention.scheme)
             constraints, box = inference.joint(convention, box, constraints)
-            searches[entry] = inference.entry.search
             if inference.entry.radius in witnessed - box.keys():  # computed from the mass
                 witnessed.add(inference.entry.mass)
         outcome, point = satisfying(constraints, box, budget)
-        if outcome is None and searches:
-            # Halving its whole range of search may narrow an inferred input sooner.
-            outcome, point = satisfying(constraints, {**box, **searches}, budget)
         witness = point and {entry: x for entry, x in point.items() if entry in witnessed}
-        against_evidence = bool(
-            searches and outcome is False and satisfying(own, own_box, _BUDGET // 10)[0]
-        )
+        against_evidence = bool(claim.inferred) and outcome is False
         return Judgement(convention, _VERDICTS[outcome], ends, witness, against_evidence)
 
     # Public sources, and choices that other claims confirm
