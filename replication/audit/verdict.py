@@ -10,10 +10,10 @@ import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import Floats, InexactError, Rationals, Reals
+from reference.derivations import Check, derive
 from reference.enclosure import Box, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
-from reference.formulas import Check, Equation, derive
-from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, in_header
+from reference.ledger import INFERRED, Claim, Convention, Equation, Ledger, Source, in_header
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
 from reference.units import Dimension, DimensionError
@@ -444,7 +444,7 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
     """Yield the checks of an equation, the dimensions last, as they are seldom what is wrong."""
     try:
         ledger.read(ledger.printed_text(name))  # else the sides are the report's
-        yield from derive(ledger.equations[name], ledger.sides, ledger.written)
+        yield from derive(name, ledger.sides, ledger.written)
     except (ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
     known: dict[str, Dimension | Fraction] = {**ledger.dimensions}

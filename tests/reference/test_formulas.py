@@ -9,11 +9,11 @@ from xml.etree import ElementTree as ET
 
 import pytest
 from kept import kept, said
+from reference.formulas import FUNCTIONS
 
 from reference.arithmetic import Floats, Reals
 from reference.enclosure import enclose
 from reference.equations import MATHML, Node, dimension, evaluate, read_expression, rendered
-from reference.formulas import FUNCTIONS
 from reference.ledger import Claim, load
 from reference.scheme import Scheme
 from reference.units import unit_dimension
