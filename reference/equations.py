@@ -35,7 +35,7 @@ class Node(msgspec.Struct, frozen=True):
 
     Its `kind` is "number" (with its `value`, and its text as `name`), "symbol" (with its `name`),
     or the operation on its `parts`: "sum", "negative", "product", "quotient", "power", or one of
-    NAMED_FUNCTIONS.
+    LOGARITHMS.
     """
 
     kind: str
@@ -48,8 +48,8 @@ Sides = Mapping[str, tuple[Node, ...]]
 """The sides of every printed equation, by the equation's id."""
 
 
-NAMED_FUNCTIONS = ("ln", "log", "crater")
-"""The report has the first two. Formulas of the ledger also have a crater's X/R for a CV/PV."""
+LOGARITHMS = ("ln", "log")
+"""The named functions of the report, natural and to base 10; log stands in misprints of ln."""
 
 
 _OPERATORS = {
@@ -73,7 +73,7 @@ class _Reader:
             r"(?P<space>(?:\s|\\quad|&)*)(?:"
             rf"(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])})"
             r"|(?P<number>\d+(?:\.\d+)?)"
-            rf"|(?P<function>\\(?:{'|'.join(NAMED_FUNCTIONS)})(?![a-zA-Z]))"
+            rf"|(?P<function>\\(?:{'|'.join(LOGARITHMS)})(?![a-zA-Z]))"
             r"|(?P<fraction>\\frac(?![a-zA-Z]))"
             r"|(?P<sign>[-+/^(){}])"
             r"|(?P<end>\Z)|(?P<unreadable>.))"
@@ -205,10 +205,7 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
         if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
             base, power = base.parts[0], power * _exponent(base.parts[1], values)
         return ar.power(evaluate(base, ar, values), power)
-    numbers = [evaluate(part, ar, values) for part in node.parts]
-    if node.kind in _OPERATIONS:
-        return _OPERATIONS[node.kind](ar, *numbers)
-    return getattr(ar, node.kind)(*numbers)
+    return _OPERATIONS[node.kind](ar, *[evaluate(part, ar, values) for part in node.parts])
 
 
 _EXACT = (Fraction, int)

@@ -224,7 +224,7 @@ class Explainer:
             function = self.ledger.function(changed)
             value, fits = None, ""
             with suppress(ArithmeticError):  # misprinted inputs may give no finite value
-                at_print = enclose(function, self.judge.printed(changed)).ends
+                at_print = enclose(function, self.judge.as_printed(changed)).ends
                 value, fits = float(at_print[0] / claim.si), "not excluded within rounding"
                 if target.encloses(*at_print):
                     fits = "as printed"

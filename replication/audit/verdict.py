@@ -203,7 +203,7 @@ class Judge:
 
     def _judgements(self, claim: Claim, reading: str) -> Iterator[Judgement]:
         """Yield a judgement for every convention that may matter, the usual first; ends in SI."""
-        printed = self.printed(claim)
+        printed = self.as_printed(claim)
         for scheme in Scheme if claim.by_scheme else (Scheme.PUBLISHED,):
             inferred = {e: self.inference(e, scheme=scheme).inner.ends for e in claim.inferred}
             at_print = admitted = self._range(claim, reading, scheme, printed)
@@ -296,10 +296,10 @@ class Judge:
         inferred = {entry: self.inference(entry).inner.ends for entry in claim.inferred}
         if not inferred:
             return []
-        idle = enclose(self.ledger.function(claim), {**self.printed(claim), **inferred}).idle
+        idle = enclose(self.ledger.function(claim), {**self.as_printed(claim), **inferred}).idle
         return [entry for entry in claim.inferred if entry not in idle]
 
-    def printed(self, claim: Claim) -> Box:
+    def as_printed(self, claim: Claim) -> Box:
         """Return the inputs of a claim as printed or, where they are inferred, as assumed."""
         return {entry: (self.value(entry),) * 2 for entry in claim.entries}
 

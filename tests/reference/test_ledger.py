@@ -10,8 +10,8 @@ from typing import Any, get_args
 import msgspec
 import pytest
 from kept import calls, kept
-
 from reference.formulas import Condition
+
 from reference.ledger import Claim, Convention, Kind, load, shown
 from reference.printed import Rounding, place_of
 from reference.units import same_dimension
