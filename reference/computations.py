@@ -52,8 +52,8 @@ class Computation:
 
     @cached_property
     def settings(self) -> frozenset[str]:
-        """Which of `eq`, `row`, `scheme` and `power` it takes."""
-        return frozenset(signature(self.function).parameters) & {"eq", "row", "scheme", "power"}
+        """Which of `eq`, `row` and `scheme` it takes."""
+        return frozenset(signature(self.function).parameters) & {"eq", "row", "scheme"}
 
     @property
     def by_row(self) -> bool:

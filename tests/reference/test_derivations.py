@@ -4,7 +4,7 @@ from fractions import Fraction as F
 
 import pytest
 
-from reference.derivations import DERIVATIONS, Check, Printed, derive, equal, premises_of
+from reference.derivations import DERIVATIONS, Check, SymbolicEquations, derive, equal, premises_of
 from reference.equations import Node
 from reference.ledger import Ledger, load
 
@@ -65,22 +65,24 @@ def test_a_misprint_breaks_a_condition(constant: str, text: str, factor: F | Non
 
 
 @pytest.fixture
-def printed() -> Printed:
-    return Printed(LEDGER.sides, frozenset(LEDGER.written.values()))
+def symbolic() -> SymbolicEquations:
+    return SymbolicEquations(LEDGER.sides, frozenset(LEDGER.written.values()))
 
 
-def test_sides_slopes_and_numbers_of_an_equation(printed: Printed) -> None:
-    s = printed.symbols
-    assert printed.left("eq6") == s.Sigma
-    assert printed.right("eq6", v=0) == s.R_t
-    assert printed.side("eq5", 1, u=s.v) == s.Y_p
-    assert printed.slope("eq6", "v") == s.rho_t * s.v
-    assert printed.slope("eq6", "Y_p") == 0
-    assert printed.tried("eq1", m=4.0) == 0.5
+def test_sides_slopes_and_numbers_of_an_equation(symbolic: SymbolicEquations) -> None:
+    s = symbolic.symbols
+    assert symbolic.left("eq6") == s.Sigma
+    assert symbolic.right("eq6", v=0) == s.R_t
+    assert symbolic.side("eq5", 1, u=s.v) == s.Y_p
+    assert symbolic.slope("eq6", "v") == s.rho_t * s.v
+    assert symbolic.slope("eq6", "Y_p") == 0
+    assert symbolic.tried("eq1", m=4.0) == 0.5
 
 
-def test_the_factor_between_two_sides_is_given_where_it_is_constant(printed: Printed) -> None:
-    s = printed.symbols
+def test_the_factor_between_two_sides_is_given_where_it_is_constant(
+    symbolic: SymbolicEquations,
+) -> None:
+    s = symbolic.symbols
     assert equal("equal", s.x + s.x, 2 * s.x) == Check("equal", holds=True)
     assert equal("three times", 3 * s.x, s.x) == Check("three times", holds=False, factor=F(3))
     assert equal("x times", s.x * s.R, s.R) == Check("x times", holds=False)
