@@ -9,16 +9,18 @@ depend on the particle's size, and X = R y gives the radius; L = (rho_t / rho_p)
 p = e^L - 1, and with it the resistance or the velocity; CV/PV is proportional to the particle's
 density. Each of these has exactly one solution for every depth.
 
-The target's density is in p and in front of the logarithm. As it falls to 0, the depth rises to that
-at the constant pressure R_t, where CV/PV = m = rho_p V^2 / 2 R_t. A deeper crater has no solution,
-and any other has exactly one: L solves (e^L - 1) / L = m / (CV/PV) = k, whose left side rises from
-1 on.
+The target's density is in p and in front of the logarithm. As it falls to 0, the depth rises to
+the one at the constant pressure R_t, where CV/PV = m = rho_p V^2 / 2 R_t. A deeper crater has no
+solution, and any other has exactly one: L solves (e^L - 1) / L = m / (CV/PV) = k, whose left side
+rises from 1 on.
 """
 
 import math
 
 from replication.models.crater import crater_volume_ratio
 from replication.models.depth import normalized_depth
+from replication.models.estimates import constant_pressure_depth
+from replication.models.impact import InputError, carried, check_range
 
 LARGEST_LOGARITHM = 700.0
 """A logarithm beyond which e^L would overflow. Inputs within the range of the models give less."""
@@ -64,7 +66,8 @@ def radius_for_depth(
     >>> f"{radius_for_depth(3.3e-6, 500.0, 8900.0, 7850.0, 3.5e9) * 1e6:.2f}"
     '4.73'
     """
-    return depth / normalized_depth(velocity, particle_density, target_density, resistance)
+    y = normalized_depth(velocity, particle_density, target_density, resistance)
+    return depth / y if y > 0 else math.inf
 
 
 def particle_density_for_depth(
@@ -89,9 +92,9 @@ def target_density_for_depth(
     """Target density rho_t [kg/m^3] at which the final depth is X (Eqs. 12-13), if there is one.
 
     A denser target stops the particle earlier. There is exactly one solution for a depth less than
-    `constant_pressure_depth`, which a target without density would have, and none for any other:
-    then the result is NaN. Close to that limit the density becomes small, and its relative error
-    large: `conditions` says by how much.
+    `constant_pressure_depth`, which a target without density would have, and none for any other: in
+    an array its place is NaN, and for plain numbers a ValueError says why. Close to that limit the
+    density becomes small and its relative error large, as the depth hardly depends on it.
 
     >>> f"{target_density_for_depth(7.674933e-6, 500.0, 11e-6, 8900.0, 3.5e9):.0f}"
     '7850'
@@ -128,6 +131,37 @@ def conditions(
         "velocity": -by_resistance / 2, "radius": 1.0, "particle_density": t,
         "target_density": -t / share, "resistance": by_resistance,
     }  # fmt: skip
+
+
+class NoSolutionError(InputError):
+    """No value of the input that is sought gives the depth, however large or small it is."""
+
+
+def check_solution(name: str, value: float, **inputs: float) -> None:
+    """Raise InputError unless a solution and its inputs are within the range of the models.
+
+    `value` is the input `name` that an inverse found. Raises NoSolutionError if it is NaN since
+    there is no solution.
+
+    >>> check_solution("target_density", math.nan, depth=9e-6, velocity=500.0, radius=11e-6,
+    ...                particle_density=8900.0, resistance=3.5e9)
+    Traceback (most recent call last):
+    replication.models.inverse.NoSolutionError: target_density has no value that gives 9e-06 m: \
+without any, at the constant pressure R_t, the depth is 8.273e-06 m
+    """
+    if "radius" in inputs:
+        y = inputs["depth"] / inputs["radius"]
+        carried("depth over radius squared", y * y)
+    if name == "target_density" and math.isnan(value):
+        check_range(**inputs)
+        names = ("velocity", "radius", "particle_density", "resistance")
+        most = constant_pressure_depth(*(inputs[name] for name in names))
+        problem = f"has no value that gives {inputs['depth']!r} m: without any, at the constant"
+        raise NoSolutionError(name, f"{problem} pressure R_t, the depth is {most:.4g} m")
+    if not 0 < value < math.inf:
+        problem = f"is {value!r} for this depth: doubles carry 1e-250 to 1e250 safely"
+        raise InputError(name, problem)
+    check_range(**inputs, **{name: value})
 
 
 def _pressure_over_resistance(logarithm: float) -> float:
