@@ -15,7 +15,7 @@ from typing import Any
 
 from flint import arb, ctx, fmpq
 
-from reference.arithmetic import Arithmetic, NoRootError, Number, Operators
+from reference.arithmetic import Arithmetic, Number, Operators
 
 
 class Span(Operators):
@@ -170,14 +170,13 @@ class Intervals(Arithmetic):
         return _increasing(lambda end: end * end * (3 - end) / 3, y)
 
     def exp_mean_root(self, k: Number) -> Number:
-        """Return a verified interval of the roots for those numbers in k that have one.
+        """Return a verified interval of the roots for the numbers in k.
 
-        A number below 1 has none; if none has one, NoRootError is raised.
+        A number below 1 has none, for which 0 is taken, the root of 1: so this stays a continuous
+        function, and an interval whose upper end is 0 proves that there is none.
         """
         with self.working():
             least, greatest = _bounded(k)
-            if greatest < _ONE:
-                raise NoRootError("(e^x - 1) / x is at least 1")
             return Span(_exp_mean_bound(least, -1), _exp_mean_bound(greatest, 1))
 
     def exp_mean_slope(self, x: Number) -> Number:

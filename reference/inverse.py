@@ -12,7 +12,7 @@ All quantities are in SI units; the inputs are those of `Trajectory`, and `depth
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
-from reference.arithmetic import Arithmetic, NoRootError, Number
+from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import Box, Ends, enclose
 
 
@@ -23,14 +23,14 @@ def work(ar: Arithmetic, y: Number) -> Number:
     >>> work(Rationals(), Fraction(3, 10)), work(Rationals(), Fraction(2))
     (Fraction(81, 1000), Fraction(5, 3))
     """
-    within = ar.least(y, ar.number(1))
-    return ar.cap_work(within) + (y - within)
+    radius = ar.number(1)  # not y - least(y, 1), which is wide for an interval of y
+    return ar.cap_work(ar.least(y, radius)) + (ar.greatest(y, radius) - 1)
 
 
 def depth_of_work(ar: Arithmetic, c: Number) -> Number:
     """Return the y [1] at which W(y) = c."""
-    within = ar.least(c, ar.number(Fraction(2, 3)))
-    return ar.cap_root(within) + (c - within)
+    at_radius = ar.number(Fraction(2, 3))
+    return ar.cap_root(ar.least(c, at_radius)) + (ar.greatest(c, at_radius) - at_radius)
 
 
 def _logarithm(
@@ -84,8 +84,7 @@ def target_density(
     """Return rho_t [kg/m^3] = rho_p L / (3/4) W, where (e^L - 1) / L = m / (3/4) W.
 
     m = rho_p V^2 / 2 R_t is (3/4) W in a target without density. If m is not greater than (3/4) W,
-    there is no solution, and NoRootError is raised. Over intervals the enclosure begins at 0 if
-    there is none for some of their numbers.
+    there is no solution, and NoRootError is raised; over intervals 0 stands for what has none.
     """
     ratio = 3 * work(ar, depth / radius) / 4
     most = particle_density * velocity**2 / (2 * resistance)
@@ -126,8 +125,5 @@ def enclosed(name: str, box: Box) -> Ends | None:
             inputs["resistance"] = inputs.pop("beta") * inputs.pop("flow_stress")
         return INVERSES[name](ar, **inputs)
 
-    try:
-        low, high = enclose(function, box).ends
-    except NoRootError:
-        return None
+    low, high = enclose(function, box).ends
     return (max(low, Fraction(0)), high) if high > 0 else None

@@ -55,7 +55,7 @@ class Column:
                 with place(f"{self.file}, line {line}, column {quoted(self.head)}"):
                     if not text:
                         raise ValueError("the cell is empty")
-                    numbers.append(read_number(f"{text} {self.unit}", unit))
+                    numbers.append(read_number(f"{text} {self.unit}".strip(), unit))
             except ValueError as error:
                 errors.append((line, error))
         if errors:

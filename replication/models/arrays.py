@@ -433,7 +433,7 @@ def _each(model: Model, *values: Any) -> Any:
     weight = 100 if model.__module__ in (motion.__name__, sheet.__name__) else 1
     pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
     if pieces < 2 or threading.current_thread() is not threading.main_thread():
-        return function(*values)
+        return _evaluated(function, *values)
     from concurrent.futures import ThreadPoolExecutor
 
     import numba
@@ -444,12 +444,20 @@ def _each(model: Model, *values: Any) -> Any:
     results = [np.empty(shape + times, kind) for kind in function.types[0].partition("->")[2]]
 
     def work(*parts: Any) -> None:
-        function(*parts[: len(views)], out=parts[len(views) :])
+        _evaluated(function, *parts[: len(views)], out=parts[len(views) :])
 
     cut = [np.array_split(array, pieces, axis) for array in (*views, *results)]
     with ThreadPoolExecutor(numba.config.NUMBA_NUM_THREADS) as pool:
         list(pool.map(work, *cut))  # raises the error of a piece, if any
     return tuple(results) if len(results) > 1 else results[0]
+
+
+def _evaluated(function: Any, *values: Any, **options: Any) -> Any:
+    """Call a ufunc without NumPy's warnings: its results are checked, and errors named by place."""
+    import numpy as np
+
+    with np.errstate(all="ignore"):
+        return function(*values, **options)
 
 
 def ufunc(model: Model) -> Any:

@@ -22,8 +22,8 @@ from replication.models.depth import normalized_depth
 from replication.models.estimates import constant_pressure_depth
 from replication.models.impact import InputError, carried, check_range
 
-LARGEST_LOGARITHM = 700.0
-"""A logarithm beyond which e^L would overflow. Inputs within the range of the models give less."""
+LARGEST_LOGARITHM = 600.0
+"""A logarithm L beyond which e^L is treated as infinite: of inputs in range it is 576 at most."""
 
 
 def resistance_for_depth(
@@ -38,7 +38,7 @@ def resistance_for_depth(
     >>> f"{resistance_for_depth(3.3e-6, 500.0, 11e-6, 8900.0, 7850.0) / 1e9:.1f}"
     '17.8'
     """
-    logarithm = crater_volume_ratio(depth, radius) * target_density / particle_density
+    logarithm = crater_volume_ratio(depth, radius) * (target_density / particle_density)
     p = _pressure_over_resistance(logarithm)
     return target_density * velocity * velocity / (2 * p) if p > 0 else math.inf
 
@@ -53,8 +53,10 @@ def velocity_for_depth(
     >>> f"{velocity_for_depth(3.3e-6, 11e-6, 8900.0, 7850.0, 3.5e9):.1f}"
     '221.5'
     """
-    logarithm = crater_volume_ratio(depth, radius) * target_density / particle_density
-    return math.sqrt(2 * resistance / target_density * _pressure_over_resistance(logarithm))
+    logarithm = crater_volume_ratio(depth, radius) * (target_density / particle_density)
+    # Roots first, as the product of what is under them may overflow.
+    p = _pressure_over_resistance(logarithm)
+    return math.sqrt(2 * resistance / target_density) * math.sqrt(p)
 
 
 def radius_for_depth(
@@ -83,7 +85,7 @@ def particle_density_for_depth(
     p = target_density * velocity * velocity / (2 * resistance)
     if p == 0:
         return math.inf
-    return crater_volume_ratio(depth, radius) * target_density / math.log1p(p)
+    return crater_volume_ratio(depth, radius) / math.log1p(p) * target_density
 
 
 def target_density_for_depth(
@@ -103,7 +105,8 @@ def target_density_for_depth(
     most = particle_density * velocity * velocity / (2 * resistance)
     if not 0 < ratio < most:
         return math.nan
-    return particle_density * _logarithm((most - ratio) / ratio) / ratio
+    excess = (most - ratio) / ratio
+    return particle_density * (_logarithm(excess) / ratio) if excess < math.inf else math.inf
 
 
 def conditions(
@@ -152,8 +155,11 @@ without any, at the constant pressure R_t, the depth is 8.273e-06 m
     if "radius" in inputs:
         y = inputs["depth"] / inputs["radius"]
         carried("depth over radius squared", y * y)
+    if name == "target_density":
+        energy = inputs["particle_density"] * inputs["velocity"] * inputs["velocity"]
+        carried("particle density times velocity squared", energy)
+        carried("this over target resistance", energy / inputs["resistance"])
     if name == "target_density" and math.isnan(value):
-        check_range(**inputs)
         names = ("velocity", "radius", "particle_density", "resistance")
         most = constant_pressure_depth(*(inputs[name] for name in names))
         problem = f"has no value that gives {inputs['depth']!r} m: without any, at the constant"
@@ -165,7 +171,7 @@ without any, at the constant pressure R_t, the depth is 8.273e-06 m
 
 
 def _pressure_over_resistance(logarithm: float) -> float:
-    """Return p = e^L - 1, infinite where it would overflow: Python raises an error there."""
+    """Return p = e^L - 1, infinite where it might overflow: Python raises an error there."""
     return math.expm1(logarithm) if logarithm < LARGEST_LOGARITHM else math.inf
 
 

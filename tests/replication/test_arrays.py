@@ -226,8 +226,10 @@ def test_series_and_labeled_and_lazy_arrays(name: str) -> None:
         xarray.Dataset: lambda v: xarray.DataArray(v, dims="case").chunk(case=130),
     }
     for kind, made in kinds.items():
-        results = as_tuple(function(*(made(v) for v in values[:-1]), values[-1][0]))
-        expected = as_tuple(function(*values[:-1], values[-1][0]))
+        last = [column[0] for column in values[1:][-1:]]  # a number, if there is a second input
+        columns = values[: len(values) - len(last)]
+        results = as_tuple(function(*map(made, columns), *last))
+        expected = as_tuple(function(*columns, *last))
         for result, numbers in zip(results, expected, strict=True):
             if kind is xarray.Dataset:
                 assert isinstance(result.data, dask.array.Array)
