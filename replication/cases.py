@@ -17,7 +17,7 @@ from replication.models.alternatives import (
     Rigid,
 )
 from replication.models.impact import Impact
-from replication.reading import quoted, read_numbers, tables_of
+from replication.reading import advice, quoted, read_numbers, tables_of
 
 INPUTS = {
     "velocity": "m/s",
@@ -139,13 +139,12 @@ def modelled(name: str, impact: Impact, given: Mapping[str, float] = {}) -> Mode
     '0.300'
     """
     if name not in DEPTH_MODELS:
-        names = ", ".join(DEPTH_MODELS)
-        raise ValueError(f"there is no model {quoted(name)}: choose one of {names}")
+        raise ValueError(f"there is no model {quoted(name)}: {advice(name, DEPTH_MODELS)}")
     declaration, ledger = DEPTH_MODELS[name], load()
     for key in given:
         if key not in declaration.inputs:
-            own = ", ".join(key for key in declaration.inputs if key in OWN_INPUTS)
-            raise ValueError(f"the model {name} takes no {quoted(key)}: it takes {own}")
+            own = [key for key in declaration.inputs if key in OWN_INPUTS]
+            raise ValueError(f"the model {name} takes no {quoted(key)}: {advice(key, own)}")
     values, sources = {}, {}
     for key in declaration.inputs:
         if key in given:

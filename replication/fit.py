@@ -14,7 +14,7 @@ from replication.columns import bad_rows, column_of, read_columns
 from replication.models import arrays
 from replication.models.depth import elasticities, final_depth
 from replication.models.impact import Impact, InputError, check
-from replication.reading import place, quoted
+from replication.reading import advice, place, quoted
 
 OTHER_FACTOR = {"resistance": "", "beta": "flow_stress", "flow_stress": "beta"}
 """What can be fitted, and by which input of the case the resistance is divided (Eq. 7)."""
@@ -59,8 +59,9 @@ class Fit:
 
     With uncertainties, these give the standard error; without, the scatter of the residuals does,
     and a single point gives None. A residual is the measured depth minus the fitted one.
-    `chi_square` is the sum of the squared residuals over their uncertainties, for `points` - 1
-    degrees of freedom, and None without uncertainties.
+    `chi_square` is the sum of the squares of the residuals over their uncertainties, for `points` -
+    1 degrees of freedom, and None without uncertainties. `resistance` is R_t [Pa], whatever factor
+    of it is the quantity.
     """
 
     quantity: str
@@ -150,8 +151,7 @@ def fit(impact: Impact, measurements: Sequence[Measurement], quantity: str = "re
 def _factor(impact: Impact, quantity: str) -> float:
     """Return by what the resistance is divided to give the quantity."""
     if quantity not in OTHER_FACTOR:
-        names = ", ".join(OTHER_FACTOR)
-        raise ValueError(f"cannot fit {quoted(quantity)}: choose one of {names}")
+        raise ValueError(f"cannot fit {quoted(quantity)}: {advice(quantity, OTHER_FACTOR)}")
     other = OTHER_FACTOR[quantity]
     factor = getattr(impact, other) if other else 1.0
     if factor is None:

@@ -12,7 +12,7 @@ from fractions import Fraction
 from replication.cases import INPUTS, changed
 from replication.models import arrays, inverse
 from replication.models.impact import Impact
-from replication.reading import place, quoted, read_number, read_printed
+from replication.reading import advice, place, quoted, read_number, read_printed
 
 QUANTITIES = {
     name: INPUTS[name]
@@ -92,8 +92,7 @@ def inputs_but(impact: Impact, quantity: str) -> dict[str, float]:
     Raises ValueError if the quantity is none of `QUANTITIES`, or an input is missing.
     """
     if quantity not in QUANTITIES:
-        names = ", ".join(QUANTITIES)
-        raise ValueError(f"cannot solve for {quoted(quantity)}: choose one of {names}")
+        raise ValueError(f"cannot solve for {quoted(quantity)}: {advice(quantity, QUANTITIES)}")
     inputs = {name: value for name, value in impact.motion.items() if name != "resistance"}
     if quantity in _OTHER_FACTOR:
         other = _OTHER_FACTOR[quantity]

@@ -59,7 +59,7 @@ def test_every_input_says_where_it_is_from(name: str) -> None:
     [
         ("tate", {}, "there is no model 'tate': choose one of rigid, constant-pressure, "
          "frank-zook, frank-zook-printed"),
-        ("rigid", {"k_1": 0.5}, "the model rigid takes no 'k_1': it takes resistance"),
+        ("rigid", {"k_1": 0.5}, "the model rigid takes no 'k_1': choose one of resistance"),
         ("frank-zook", {"k_t": -1.0}, "k_t is -1.0: it must be a finite number greater than zero"),
         ("frank-zook", {"k_t": 1e50}, "k_t is 1e+50: it is computed with from 1e-40 to 1e+40"),
     ],
