@@ -18,6 +18,7 @@ from running import coldspray
 
 from replication.audit.record import Record
 from replication.power import measured
+from replication.report.document import audit_document
 from replication.text import json_text
 
 ROOT = Path(__file__).parent.parent
@@ -92,7 +93,7 @@ Audit = dict[str, Any]
 
 @pytest.fixture(scope="module")
 def audit(record: Record) -> Audit:
-    return dict(json.loads(json_text(record)))
+    return dict(json.loads(json_text(audit_document(record))))
 
 
 @kept("replication/kept.txt", "An audit tampered with, and what is said of its file")

@@ -9,6 +9,7 @@ from kept import kept
 
 from reference.equations import EquationError
 from reference.ledger import Ledger, load
+from replication.audit.assessment import Verdict
 from replication.audit.audit import Audit, audit
 from replication.audit.explain import (
     EQUATION_EDITS,
@@ -16,7 +17,6 @@ from replication.audit.explain import (
     edits,
     equation_edits,
 )
-from replication.audit.record import Verdict
 from replication.audit.verdict import Judge, assess_equation, disagreeing, follows
 from replication.power import Plant, measured, new_failures, plants, power, trial
 

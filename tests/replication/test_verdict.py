@@ -13,11 +13,12 @@ from reference.enclosure import satisfying
 from reference.ledger import Convention, load
 from reference.scheme import Scheme
 from replication.audit import verdict, wording
+from replication.audit.assessment import Assessment, Judgement, Verdict
 from replication.audit.explain import Explainer
 from replication.audit.inference import Inference
-from replication.audit.record import Record, SlipRecord, Verdict
+from replication.audit.record import Record, Slip
 from replication.audit.replica import replica
-from replication.audit.verdict import Assessment, Judge, Judgement
+from replication.audit.verdict import Judge
 
 LEDGER = load()
 JUDGE = Judge(LEDGER)
@@ -123,7 +124,7 @@ def judged(name: str, text: str, claim: str) -> Assessment:
     return judge(name, text).assess(judge(name, text).ledger.claims[claim])
 
 
-def slips(name: str, text: str) -> list[SlipRecord]:
+def slips(name: str, text: str) -> list[Slip]:
     """The slips that are tried as explanations of a misprinted claim."""
     return Explainer(judge(name, text)).slips(judge(name, text).ledger.claims[name])
 

@@ -6,6 +6,7 @@ from math import expm1, log, log1p
 from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import enclose
 from reference.ledger import Convention
+from replication.audit.assessment import Verdict
 from replication.audit.findings.evidence import (
     above,
     at_least,
@@ -17,7 +18,7 @@ from replication.audit.findings.evidence import (
     prints,
     proves,
 )
-from replication.audit.record import Finding, Verdict
+from replication.audit.record import Finding
 from replication.audit.results import DENSITY, DERIVED, Results, case, exact_ratio
 
 RISE = {
@@ -301,9 +302,9 @@ def frank_zook_values(audit: Results) -> Finding:
     text, exact, judge = audit.text, audit.exact, audit.judge
     stainless = audit.ledger.claims["frank-zook-stainless"]
     function = audit.ledger.function(stainless, reading=DERIVED)
-    usual = judge.box(stainless, Convention())
+    usual = judge.inputs_as_rounded(stainless, Convention())
     admitted = {
-        **judge.box(stainless, Convention(choices_exact=False)),
+        **judge.inputs_as_rounded(stainless, Convention(choices_exact=False)),
         "a1-initial-velocity": usual["a1-initial-velocity"],
         DENSITY: judge.rounded(DENSITY, Convention(header_exact=True)).ends,
     }
