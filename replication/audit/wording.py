@@ -117,17 +117,18 @@ def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
 
 
 def scope(claim: Claim, reading: Reading) -> str:
-    """Say under which conventions the verdict holds, and which would change it."""
+    """Say under which conventions the verdict was tried, and which of them give another one."""
     tried = [judgement.convention for judgement in reading.judgements]
     usual = [c for c in tried if (c.rounding, c.scheme) == (tried[0].rounding, tried[0].scheme)]
     names = {"choices_exact": "the author's choices", "header_exact": "the header of Table A-1"}
     varied = [name for key, name in names.items() if len({getattr(c, key) for c in usual}) > 1]
-    scope = "three ways of rounding"
-    scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
-    scope += ", in both schemes" if claim.by_scheme else ""
+    inputs = f", with {' and '.join(varied)} exact or rounded" if varied else ""
+    where = f"{inputs}{', in both schemes' if claim.by_scheme else ''}"
+    if exceptions := _exceptions(claim, reading):
+        others = f"{reading.verdict} under all others"
+        return f"Three ways of rounding were tried{where}: {exceptions}; {others}."
     subject = "As printed, the" if claim.readings and not reading.name else "The"
-    but = _exceptions(claim, reading)
-    return f"{subject} verdict is the same under {scope}{f', except: {but}' * bool(but)}."
+    return f"{subject} verdict is the same under three ways of rounding{where}."
 
 
 def _exceptions(claim: Claim, reading: Reading) -> str:
