@@ -6,7 +6,7 @@ import pytest
 
 from reference.ledger import INFERRED, Claim, Convention, load
 from replication.audit.assessment import Verdict
-from replication.audit.audit import audit
+from replication.audit.audit import Audit
 from replication.audit.record import Record
 
 LEDGER = load()
@@ -92,7 +92,8 @@ def test_nothing_is_expected_that_is_not_there() -> None:
 
 
 def test_a_formula_that_a_misprint_leaves_without_a_value_ends_no_audit() -> None:
-    spoiled = audit(LEDGER.misprint("fz-resistance-rha", "0"))
+    ledger = LEDGER.misprint("fz-resistance-rha", "0")
+    spoiled = Audit(ledger, every_convention=False).record()
     assert spoiled.claim("frank-zook-rha").verdict == "not reproduced"
     assert {f.id for f in spoiled.findings if not f.holds} >= {"equation-16", "frank-zook-values"}
     armor = [a for a in spoiled.approaches if a.claim == "frank-zook-rha"]
