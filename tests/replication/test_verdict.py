@@ -193,7 +193,7 @@ def test_a_choice_that_its_claims_no_longer_confirm_has_no_range() -> None:
 def test_a_slip_says_whether_it_gives_the_number(printed: str, fits: str) -> None:
     own = judge("frank-zook-rha", printed)
     slips = Explainer(own).slips(own.ledger.claims["frank-zook-rha"])
-    assert [slip.fits for slip in slips if slip.name == "L/D = 1"] == [fits]
+    assert [slip.fits for slip in slips if slip.slip.name == "L/D = 1"] == [fits]
 
 
 def test_a_slip_without_a_value_fits_nothing() -> None:
