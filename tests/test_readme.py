@@ -65,6 +65,27 @@ def test_the_rates_are_those_measured() -> None:
     assert f"and another entry first in {accused}." in text
 
 
+def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:
+    table = re.findall(r"^\| ([a-z, ]+) \| (\d+) \| ", README, re.MULTILINE)
+    assert {verdict: int(count) for verdict, count in table} == record.summary
+    counts, text = record.counts, " ".join(README.split())
+    assert counts.remarks == 2
+    assert (
+        f"The {counts.entries} entries are {counts.numbers} numbers and two comparisons in words. "
+        f"Of the {counts.reproduced} that are reproduced, {counts.constants} are factors and "
+        f"powers in equations. The other {counts.computed} are numbers, of {counts.values} "
+        "different values."
+    ) in text
+    inferred = record.inferred[0]
+    assert len(inferred.evidence) == 8
+    assert f"Eight of the {counts.computed} are the cells from which the" in text
+    assert counts.equations_failing == 1
+    assert (
+        f"Of {counts.equations} equations, {counts.equations_derived} follow from those before "
+        "them or from mechanics, and one (Eq. 16) does not."
+    ) in text
+
+
 def test_times_are_those_of_the_whole_table() -> None:
     (block,) = re.findall(r"```text\n(.*?)```", README, re.DOTALL)
     whole = (ROOT / "docs" / "bench" / "bench.txt").read_text("utf-8").splitlines()
@@ -91,19 +112,19 @@ Audit = dict[str, Any]
 
 
 @pytest.fixture(scope="module")
-def audit(record: Record) -> Audit:
+def document(record: Record) -> Audit:
     return dict(json.loads(json_text(audit_document(record))))
 
 
 @pytest.fixture
-def tampered(audit: Audit) -> Audit:
+def tampered(document: Audit) -> Audit:
     """A copy to tamper with."""
-    return copy.deepcopy(audit)
+    return copy.deepcopy(document)
 
 
-def entry(audit: Audit, part: str, name: str) -> Audit:
+def entry(document: Audit, part: str, name: str) -> Audit:
     """Return a claim or an equation of an audit, by its id."""
-    entries: list[Audit] = audit[part]
+    entries: list[Audit] = document[part]
     return {own["id"]: own for own in entries}[name]
 
 
@@ -237,14 +258,14 @@ def test_a_changed_summary_is_noticed(tampered: Audit) -> None:
     ],
 )
 def test_the_program(
-    changed: Callable[[str], str], status: int, audit: Audit, tmp_path: Path
+    changed: Callable[[str], str], status: int, document: Audit, tmp_path: Path
 ) -> None:
     file = tmp_path / "audit.json"
-    file.write_text(changed(json.dumps(audit)), "utf-8")
+    file.write_text(changed(json.dumps(document)), "utf-8")
     command = [sys.executable, "-I", PROGRAM, file]
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == status
     assert "Traceback" not in done.stderr
     assert len(done.stderr.splitlines()) == (status == 2)
     if status == 0:
-        assert done.stdout == f"{len(audit['claims'])} claims, 0 differences\n"
+        assert done.stdout == f"{len(document['claims'])} claims, 0 differences\n"

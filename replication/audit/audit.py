@@ -240,7 +240,7 @@ LIBRARIES = "coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWri
 """The distributions whose versions may change a byte of the files."""
 
 
-def provenance() -> dict[str, object]:
+def provenance() -> dict[str, Any]:
     """Return the versions of the programs in use and the hashes of the files that were read.
 
     A library that is not installed is left out, as an audit without its files can do without some.

@@ -12,6 +12,7 @@ from collections import Counter
 from dataclasses import replace
 from fractions import Fraction as F
 from hashlib import sha256
+from importlib import metadata
 from itertools import pairwise
 from math import inf, log, nextafter
 from pathlib import Path
@@ -30,13 +31,19 @@ from reference.printed import Interval, parse
 from replication import report
 from replication import text as texts
 from replication.audit import comparison
-from replication.audit.audit import Audit
+from replication.audit.audit import LIBRARIES, Audit, provenance
+from replication.audit.findings import findings_on
 from replication.audit.record import Record
 from replication.audit.results import Results
 from replication.cases import BETA_5
 from replication.models.depth import final_depth
 from replication.report import contents, html
-from replication.report.document import audit_document, schema_text
+from replication.report.document import (
+    audit_document,
+    claim_document,
+    equation_document,
+    schema_text,
+)
 from replication.report.figures import draw
 from replication.report.prose import HTML as PAGE
 from replication.report.prose import TERMINAL, Named, Prose
@@ -60,6 +67,55 @@ def test_the_record_is_what_its_schema_says_and_nothing_less(record: Record) -> 
     spoiled += [{**claim, "unknown": 1}, {**claim, "verdict": "maybe"}]
     for wrong in spoiled:
         assert not validator.is_valid({**small, "claims": [wrong]}), wrong
+
+
+def test_one_claim_and_one_equation_are_those_of_the_whole_audit(record: Record) -> None:
+    fresh = Audit(LEDGER)
+    whole = audit_document(record)
+    claims, equations = (
+        {entry["id"]: entry for entry in whole[part]} for part in ("claims", "equations")
+    )
+    assert claim_document(fresh.claim("frank-zook-rha")) == claims["frank-zook-rha"]
+    assert equation_document(fresh.equation("eq16")) == equations["eq16"]
+    for unknown in (fresh.claim, fresh.equation):
+        with pytest.raises(KeyError):
+            unknown("eq17")
+
+
+def test_the_schema_describes_every_object_in_lines_without_an_indent() -> None:
+    for name, part in SCHEMA["$defs"].items():
+        assert part["title"] == name
+        assert part["description"] == " ".join(part["description"].split())
+
+
+def test_an_equation_for_a_terminal(audit: Audit) -> None:
+    text = report.equation_proof(audit.equation("eq16"), findings_on(audit, "eq16"), LEDGER, 100)
+    lines = text.splitlines()
+    assert lines[:3] == [
+        "Eq. 16, depth by Frank and Zook (eq16)",
+        "section 3, line 137, Eq. 16: not reproduced",
+        "X/R = ((L/D ρₚ/ρₜ + k₁)/2kt)ln(1+kₜ ρₜ V²/Rₜ)",
+    ]
+    assert any(
+        re.fullmatch(r"2 before kₜ in Eq\. 16 \(eq16-denominator\) +2 +not reproduced +1", line)
+        for line in lines
+    )
+    assert lines[-1] == "  Eq. 16 prints 2 kₜ; for X/R it must be kₜ"
+
+
+def test_a_library_that_is_not_installed_is_left_out_of_the_provenance(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """An audit in a browser has no library that writes workbooks."""
+    installed = metadata.version
+
+    def version(name: str) -> str:
+        if name == "XlsxWriter":
+            raise metadata.PackageNotFoundError(name)
+        return installed(name)
+
+    monkeypatch.setattr(metadata, "version", version)
+    assert provenance()["versions"].keys() == {*LIBRARIES} - {"XlsxWriter"}
 
 
 def arithmetic(text: str) -> float:

@@ -13,6 +13,7 @@ from reference.ledger import Convention, load
 from reference.scheme import Scheme
 from replication.audit import wording
 from replication.audit.assessment import Assessment, Judgement, Verdict
+from replication.audit.audit import Audit
 from replication.audit.explain import Explainer
 from replication.audit.inference import Inference
 from replication.audit.record import Record
@@ -20,21 +21,20 @@ from replication.audit.replica import replica
 from replication.audit.verdict import Judge, assess_equation, follows, is_consistent
 
 LEDGER = load()
-JUDGE = Judge(LEDGER)
 
 
-def witnesses() -> Iterator[tuple[str, str, Judgement]]:
+def witnesses(judge: Judge) -> Iterator[tuple[str, str, Judgement]]:
     """Every judgement with a witness, with its claim and its reading."""
-    for claim in LEDGER.claims.values():
+    for claim in judge.ledger.claims.values():
         if claim.is_computed:
-            for reading in JUDGE.assess(claim).readings:
+            for reading in judge.assess(claim).readings:
                 for judgement in reading.judgements:
                     if judgement.witness is not None:
                         yield claim.id, reading.name, judgement
 
 
-def test_a_witness_prints_like_the_report_and_gives_the_number() -> None:
-    result = list(witnesses())
+def test_a_witness_prints_like_the_report_and_gives_the_number(audit: Audit) -> None:
+    result = list(witnesses(audit.judge))
     assert len(result) > 10
     for name, reading, judgement in result:
         claim, convention, witness = LEDGER.claims[name], judgement.convention, judgement.witness
@@ -54,7 +54,7 @@ def test_a_witness_prints_like_the_report_and_gives_the_number() -> None:
         target = claim.target(convention.rounding)
         assert not target.excludes(value - margin, value + margin), name
         for entry in claim.inferred:
-            inference = JUDGE.inference(entry, scheme=convention.scheme)
+            inference = audit.judge.inference(entry, scheme=convention.scheme)
             constraints, box = inference.joint(convention, {entry: (witness[entry],) * 2})
             at_witness = {name: (witness.get(name, low), witness.get(name, high))
                           for name, (low, high) in box.items()}  # fmt: skip
@@ -243,8 +243,7 @@ def test_evidence_without_a_value_bounds_nothing() -> None:
     without_mass = judge("a1-mass", "0").inference(DENSITY)
     assert without_mass.admitted(Convention()).ends == without_mass.entry.search
     stray = judge("diameter", "D = 2x").inference(DENSITY)
-    as_printed = JUDGE.inference(DENSITY).admitted(Convention())
-    assert stray.admitted(Convention()) == as_printed
+    assert stray.admitted(Convention()) == inference().admitted(Convention())
 
 
 HEADER = {
