@@ -16,7 +16,7 @@ import pytest
 from running import coldspray
 
 from replication.audit.record import Record
-from replication.power import measured
+from replication.power import measured_rates
 from replication.report.document import audit_document
 from replication.text import json_text
 
@@ -54,7 +54,7 @@ def test_the_two_commands_are_those_that_users_were_promised() -> None:
 
 
 def test_the_rates_are_those_measured() -> None:
-    rates = measured()
+    rates = measured_rates()
     shares = (rates.repaired, rates.repaired_first, rates.accused_wrongly)
     named, first, accused = (f"{100 * share / rates.visible:.1f} %" for share in shares)
     hidden = f"{rates.invisible} ({rates.invisible / rates.planted:.0%}) leave".replace("%", " %")

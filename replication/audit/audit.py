@@ -170,7 +170,7 @@ class Audit(Results):
         >>> Audit(ledgers.load()).equation("eq16").assessment.factor
         Fraction(1, 2)
         """
-        assessed = self.judge.equation(name)
+        assessed = self.judge.assess_equation(name)
         return r.EquationRecord(
             assessment=assessed,
             text=self.ledger.printed_text(name),

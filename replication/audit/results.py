@@ -57,7 +57,7 @@ class Results:
     def verdict(self, name: str) -> Verdict:
         """Return the verdict on a claim or an equation."""
         if name in self.ledger.equations:
-            return self.judge.equation(name).verdict
+            return self.judge.assess_equation(name).verdict
         return self.judge.assess(self.ledger.claims[name]).verdict
 
     def verdicts(self, prefix: str) -> set[Verdict]:

@@ -57,7 +57,7 @@ class Judge:
         self.ledger, self.every_convention = ledger, every_convention
         # Cached by this object and not by the functions, so that the results are freed with it.
         self._inferences = cache(partial(Inference, ledger))
-        self.equation = cache(partial(assess_equation, ledger))
+        self.assess_equation = cache(partial(assess_equation, ledger))
         self.assess = cache(self._assess)
         self.confirmed_range = cache(self._confirmed_range)
         self.sources = cache(self._sources)
@@ -116,7 +116,7 @@ class Judge:
 
     def constant(self, claim: Claim) -> JudgedConstant | None:
         """Return the judgement on a claim as a constant of its equation; None if it is none."""
-        return self.equation(claim.within).constants.get(claim.id) if claim.within else None
+        return self.assess_equation(claim.within).constants.get(claim.id) if claim.within else None
 
     def _recomputed(self, claim: Claim) -> Assessment:
         """Return the verdict on a claim that the report computes.

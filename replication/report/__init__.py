@@ -95,7 +95,7 @@ def _from_template(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
         "quantity": quantity,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
-    text = page.filled("replication.report", name, parts, filters).lstrip()
+    text = page.from_template("replication.report", name, parts, filters).lstrip()
     return text if prose.form is HTML else re.sub(r"\n{3,}", "\n\n", text)
 
 

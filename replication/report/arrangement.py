@@ -8,7 +8,7 @@ from string import ascii_lowercase
 from reference.ledger import INFERRED, in_header
 from replication.audit.assessment import Comparison, Verdict
 from replication.audit.record import ClaimRecord, EquationRecord, Finding, InferredRecord, Record
-from replication.power import measured
+from replication.power import measured_rates
 from replication.report import tables, words
 from replication.report.prose import Named
 from replication.text import Table
@@ -240,7 +240,7 @@ class Arrangement:
     @property
     def power(self) -> tuple[str, Table]:
         """What the audit notices of planted misprints, in words and as a table of rates."""
-        rates = measured()
+        rates = measured_rates()
         return words.power(rates), rates.table()
 
 

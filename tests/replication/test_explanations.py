@@ -17,7 +17,7 @@ from replication.audit.explain import (
 )
 from replication.audit.record import Record
 from replication.audit.verdict import Judge, assess_equation, disagreeing, follows
-from replication.power import Plant, measured, new_failures, plants, power, trial
+from replication.power import Plant, measured_rates, new_failures, plants, power, trial
 
 LEDGER = load()
 PAIR = ("frank-zook-rha", "frank-zook-stainless")
@@ -282,7 +282,7 @@ def test_a_planted_misprint_is_noticed_where_it_should_be(
 
 @pytest.mark.slow
 def test_the_rates_on_the_page_are_measured_again() -> None:
-    rates = measured()
+    rates = measured_rates()
     assert power(LEDGER, rates.planted, rates.seed, lambda plants: plants) == rates
 
 

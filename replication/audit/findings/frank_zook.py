@@ -78,7 +78,7 @@ RESULTS = ("depth-beta-3", "depth-beta-5", "ratio-beta-3", "ratio-beta-5")
 
 def derived_over_printed(audit: Results) -> Fraction:
     """Return the derived over the printed right side of Eq. 16; 0 if that is not one number."""
-    factor = audit.judge.equation("eq16").factor
+    factor = audit.judge.assess_equation("eq16").factor
     return Fraction(0) if factor is None else 1 / factor
 
 
@@ -194,7 +194,7 @@ def equation_16(audit: Results) -> Finding:
     observed = exact("observed-depth-ratio")
     as_printed = {t: audit.computed(f"frank-zook-{t}") for t in ("rha", "stainless")}
     derived = {t: audit.computed(f"frank-zook-{t}", DERIVED) for t in ("rha", "stainless")}
-    (needed,) = audit.judge.equation("eq16").constants["eq16-denominator"].needed
+    (needed,) = audit.judge.assess_equation("eq16").constants["eq16-denominator"].needed
     factor = equals(
         "factor",
         "2",
