@@ -4,6 +4,7 @@ import csv
 import io
 import json
 import os
+import pickle
 import re
 import shutil
 import subprocess
@@ -80,6 +81,11 @@ def test_one_claim_and_one_equation_are_those_of_the_whole_audit(record: Record)
     for unknown in (fresh.claim, fresh.equation):
         with pytest.raises(KeyError):
             unknown("eq17")
+
+
+def test_a_record_can_be_pickled(record: Record) -> None:
+    again = pickle.loads(pickle.dumps(record))
+    assert audit_document(again) == audit_document(record)
 
 
 def test_the_schema_describes_every_object_in_lines_without_an_indent() -> None:
