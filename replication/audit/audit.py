@@ -1,7 +1,7 @@
 """The audit: every verdict, explanation and finding, put together as one record."""
 
 import sys
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property, partial
@@ -29,18 +29,23 @@ from replication.audit.verdict import Judgement, Reading
 from replication.text import number, powers_of_ten
 
 
-def audit(ledger: Ledger | None = None) -> r.Record:
-    """Audit every number and equation of the report, or of a ledger with planted misprints."""
-    return Audit(ledger or ledgers.load()).record()
+def audit(
+    ledger: Ledger | None = None, progress: Callable[[Iterable[Claim]], Iterable[Claim]] = iter
+) -> r.Record:
+    """Audit every number and equation of the report, or of a ledger with planted misprints.
+
+    `progress` wraps the iteration over the claims, such as in a progress bar.
+    """
+    return Audit(ledger or ledgers.load()).record(progress)
 
 
 class Audit(Results):
     """The audit of one ledger: turns its results into records."""
 
-    def record(self) -> r.Record:
-        """Return the finished audit as data."""
-        claims = [self.claim(claim) for claim in self.ledger.claims.values()]
-        equations = [self._equation(name) for name in self.ledger.equations]
+    def record(self, progress: Callable[[Iterable[Claim]], Iterable[Claim]] = iter) -> r.Record:
+        """Return the finished audit as data; `progress` wraps the iteration over the claims."""
+        claims = [self.claim(claim) for claim in progress(self.ledger.claims.values())]
+        equations = [self.equation(name) for name in self.ledger.equations]
         headline, *others = findings(self)
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
@@ -191,7 +196,8 @@ class Audit(Results):
 
     # Equations and inferred inputs
 
-    def _equation(self, name: str) -> r.EquationRecord:
+    def equation(self, name: str) -> r.EquationRecord:
+        """Return the record of one equation."""
         assessed = self.judge.equation(name)
         place = assessed.equation.place
         return r.filled(

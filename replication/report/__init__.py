@@ -12,12 +12,21 @@ import msgspec
 
 from reference.ledger import INFERRED, Ledger, in_header
 from replication import page
-from replication.audit.record import ClaimRecord, Finding, Record, Verdict
+from replication.audit.record import ClaimRecord, EquationRecord, Finding, Record, Verdict
 from replication.power import measured
 from replication.report import words
 from replication.report.figures import draw
 from replication.report.words import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
-from replication.text import Table, between, columns, json_text, number, quantity, rows_csv
+from replication.text import (
+    Table,
+    between,
+    columns,
+    json_text,
+    number,
+    quantity,
+    rows_csv,
+    table_text,
+)
 
 FILES = (
     "audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt", "workbook.xlsx",
@@ -197,12 +206,7 @@ def proof(
 
     Other entries are named by the ledger.
     """
-    names = {name: Named(e.title) for name, e in ledger.equations.items()}
-    for name, inferred in ledger.inferred.items():
-        value = words.measured(float(inferred.nominal), inferred.unit)
-        names[f"{INFERRED}{name}"] = Named(inferred.title, value=value)
-    for name, entry in ledger.claims.items():
-        names[name] = Named(entry.title, value=quantity(entry.shown, entry.unit))
+    names = _names(ledger)
     context = {
         "record": None,
         "claim": claim,
@@ -210,8 +214,41 @@ def proof(
         "tables": words.tried(claim),
         "findings": [finding.title for finding in findings],
     }
+    return _terminal(_prose(ledger, names), context, width, strong)
+
+
+def equation_proof(
+    equation: EquationRecord,
+    findings: Sequence[Finding],
+    ledger: Ledger,
+    width: int,
+    strong: bool = False,
+) -> str:
+    """Write one equation with what its verdict rests on, and the titles of the findings on it."""
+    context = {
+        "record": None,
+        "claim": None,
+        "equation": equation,
+        "tables": [words.constants(equation, ledger), words.repairs(equation.repairs)],
+        "findings": [finding.title for finding in findings],
+    }
+    return _terminal(_prose(ledger, _names(ledger)), context, width, strong)
+
+
+def _names(ledger: Ledger) -> dict[str, Named]:
+    """Return what every id of the ledger refers to."""
+    names = {name: Named(e.title) for name, e in ledger.equations.items()}
+    for name, inferred in ledger.inferred.items():
+        value = words.measured(float(inferred.nominal), inferred.unit)
+        names[f"{INFERRED}{name}"] = Named(inferred.title, value=value)
+    for name, entry in ledger.claims.items():
+        names[name] = Named(entry.title, value=quantity(entry.shown, entry.unit))
+    return names
+
+
+def _prose(ledger: Ledger, names: Mapping[str, Named]) -> Prose:
     symbols = (symbol.shown for symbol in ledger.symbols.values())
-    return _terminal(Prose(TERMINAL, symbols, names), context, width, strong)
+    return Prose(TERMINAL, symbols, names)
 
 
 def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool) -> str:
@@ -225,6 +262,10 @@ def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool
     def table(rows: Sequence[tuple[str, ...]]) -> str:
         return columns([tuple(map(prose, row)) for row in rows], width)
 
+    def grid(table: Table) -> str:
+        heads, *rows = (tuple(map(prose, row)) for row in (table.heads, *table.rows))
+        return table_text(Table("", heads, rows), width)
+
     bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
-    helpers = {"fill": filled, "columns": table, "strong": bold.format}
+    helpers = {"fill": filled, "columns": table, "table_text": grid, "strong": bold.format}
     return _filled("terminal.txt.j2", prose, {**context, **helpers}).rstrip("\n")

@@ -13,7 +13,7 @@ from html import escape
 from html.entities import html5
 from typing import NamedTuple
 
-from reference.ledger import shown
+from reference.ledger import Ledger, shown
 from reference.scheme import Scheme
 from reference.units import superscript
 from replication.audit import record as r
@@ -180,6 +180,21 @@ def _needed(solved: r.BackSolvedRecord) -> str:
     ends = ", ".join(between(ends, 6, inward=True) for ends in solved.intervals)
     beyond = " or beyond" if solved.proof == r.Proof.TO_AN_END else ""
     return quantity(ends, solved.unit) + beyond
+
+
+def constants(equation: r.EquationRecord, ledger: Ledger) -> Table:
+    """Return the constants of an equation, with the values that would pass all of its checks."""
+    rows = [
+        (
+            f"`{constant.claim}`",
+            ledger.claims[constant.claim].shown,
+            constant.verdict,
+            ", ".join(constant.needed) or "none of those tried",
+        )
+        for constant in equation.constants
+    ]
+    heads = ("constant", "printed", "verdict", "values that pass every check")
+    return Table("Its factors, powers and offsets, each with all others as printed", heads, rows)
 
 
 def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
