@@ -10,6 +10,8 @@ from typing import Any, TypeVar
 import msgspec
 
 from reference.ledger import Convention, Report
+from replication.reading import advice
+from replication.text import with_unit
 
 SCHEMA = "coldspray-audit-2"
 """The name and version of this set of keys."""
@@ -223,6 +225,10 @@ class ClaimRecord(_Part, frozen=True):
     slips: list[SlipRecord]
     workbook: str | None
 
+    def __repr__(self) -> str:
+        """A line; `msgspec.structs.asdict` has all fields."""
+        return f"<claim {self.id}: {with_unit(self.printed, self.unit)}, {self.verdict}>"
+
 
 class ConstantRecord(_Part, frozen=True):
     """The verdict on a constant of an equation; `needed` are the values that pass every check."""
@@ -428,8 +434,23 @@ class Record(_Part, frozen=True):
     provenance: dict[str, Any]
 
     def claim(self, name: str) -> ClaimRecord:
-        """Return the claim with this id. Raises KeyError if there is none."""
-        return {claim.id: claim for claim in self.claims}[name]
+        """Return the claim with this id. Raises KeyError if there is none, and names similar ones.
+
+        >>> from replication.audit.audit import audit
+        >>> audit().claim("depth-beta-5")
+        <claim depth-beta-5: 7.67 um, reproduced>
+        """
+        claims = {claim.id: claim for claim in self.claims}
+        if name not in claims:
+            raise KeyError(f"there is no claim {name!r}; {advice(name, claims, 'see `claims`')}")
+        return claims[name]
+
+    def __repr__(self) -> str:
+        """A line, not the whole: that has some 340,000 characters."""
+        counted = ", ".join(
+            f"{count} {verdict}" for verdict, count in self.summary.items() if count
+        )
+        return f"<audit of {len(self.claims)} entries: {counted}; {len(self.findings)} findings>"
 
 
 _Filled = TypeVar("_Filled", bound=_Part)
