@@ -269,7 +269,7 @@ def richardson(order: int, ratio: float, assumed: int) -> dict[str, float]:
 
 
 def regime(order: float, *parts: float) -> str:
-    """Return what governs an error with these parts; `said.txt` has more examples."""
+    """Return what governs an error with these parts; `printed/converge.txt` has more examples."""
     names = ("time_step", "stop_rule", "half_step", "rounding")
     return ladder.regime(1.0, dict(zip(names, parts, strict=True)), order, 1)
 
@@ -303,7 +303,7 @@ def test_the_largest_step_for_digits_is_verified(digits: int, scheme: Scheme) ->
 def test_the_closed_form_is_within_4_ulp_in_hard_cases_and_the_measure_sees_one_ulp(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The sheets of these cases, their warnings and the errors are in `said.txt`."""
+    """The sheets of these cases, their warnings and the errors are in `printed/stability.txt`."""
     if (ulps := hard_cases.outcome(name)["ulps"]) is not None:
         assert abs(ulps) <= 4
         monkeypatch.setattr(
