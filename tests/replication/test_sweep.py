@@ -22,7 +22,6 @@ import pyarrow.parquet
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kept import kept
 from running import coldspray
 from scipy import stats
 
@@ -58,13 +57,60 @@ def names(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
-@kept("replication/kept.txt", "What a plan means")
-def test_plans_give_the_expected_cases(question: str, answer: str, tmp_path: Path) -> None:
-    cases = all_of(plan_of(tmp_path, question))
-    for name, expected in eval(answer).items():
-        rounding = 2e-9 if "ksi" in question else 1e-15
-        assert cases[name].tolist() == pytest.approx(expected, rel=rounding, abs=0)
-    assert ("beta" in cases) == ("resistance =" not in question)
+LIST_AND_RANGE = """
+[inputs]
+velocity = ["400 m/s", 500.0]
+radius = {from = "1 um", to = 3e-6, points = 3}
+"""
+OF_A_CASE = """
+[sweep]
+case = "beta-3"
+[inputs]
+radius = "5 um"
+"""
+BY_MASS = """
+[inputs]
+radius = ["5.5 um", "11 um", "22 um"]
+velocity = {average_velocity = "500 m/s", average_mass = 4.96199898868791e-11}
+"""
+
+
+@pytest.mark.parametrize(
+    ("plan", "expected"),
+    [
+        pytest.param(
+            LIST_AND_RANGE,
+            {"velocity": [400, 400, 400, 500, 500, 500], "radius": 2 * [1e-6, 2e-6, 3e-6]},
+            id="the first input varies slowest",
+        ),
+        pytest.param(
+            OF_A_CASE,
+            {"radius": [5e-6], "beta": [3], "velocity": [500], "resistance": [2.1e9]},
+            id="others are of the case",
+        ),
+        pytest.param(
+            "\ufeff[inputs]", {"depth": [7.674932926028623e-06]}, id="a mark of the byte order"
+        ),
+        pytest.param(  # Eq. 1: mass goes as the cube of the radius, so the ratio is 8^(1/2)
+            BY_MASS,
+            {"velocity": [1414.213562373095, 500, 176.77669529663686]},
+            id="the velocity by the mass",
+        ),
+    ],
+)
+def test_plans_give_the_expected_cases(
+    plan: str, expected: dict[str, list[float]], tmp_path: Path
+) -> None:
+    cases = all_of(plan_of(tmp_path, plan))
+    for name, values in expected.items():
+        assert cases[name].tolist() == pytest.approx(values, rel=1e-15, abs=0)
+
+
+def test_a_resistance_stands_instead_of_beta_and_flow_stress(tmp_path: Path) -> None:
+    """98 ksi of 1000 lbf/in^2 each: 675.686215 MPa to nine digits."""
+    cases = all_of(plan_of(tmp_path, '[inputs]\nresistance = ["98 ksi", 2.1e9]'))
+    assert cases["resistance"].tolist() == pytest.approx([675686215.0, 2.1e9], rel=2e-9, abs=0)
+    assert "beta" not in cases
 
 
 @given(
