@@ -2,20 +2,27 @@
 
 import argparse
 
-from replication.cases import CASES, INPUTS, read_case
+from replication.cases import BETA_5, CASES, INPUTS, doubts, option, read_case
 from replication.cli.options import path
 from replication.models.impact import Impact
+from replication.text import number
+
+OF_THE_SHEET = ("step", "stop_velocity")
+"""The inputs that act only where time is stepped."""
 
 
-def add_inputs(parser: argparse.ArgumentParser, default: str = "beta-5") -> None:
+def add_inputs(
+    parser: argparse.ArgumentParser, *, default: str = "beta-5", with_sheet: bool = True
+) -> None:
     """Add --case, --case-file and every input of a case; `default` says which case is the default.
 
-    A command checks every input that is given, also those that do not act on its result.
+    with_sheet: the sheet's step and stop velocity act on the result. If they do not, they are still
+    accepted and checked, so that one set of options serves all commands, but the help leaves them
+    out.
     """
     group = parser.add_argument_group(
         "the case",
-        "Inputs not given are those of the named case. A resistance replaces beta and flow "
-        "stress. Step and stop velocity concern the sheet. A plain number is in the unit shown; "
+        "Inputs not given are those of the named case. A plain number is in the unit shown; "
         'others are understood, such as "11 um", "98 ksi" and "0.2 ns".',
     )
     group.add_argument(
@@ -23,13 +30,22 @@ def add_inputs(parser: argparse.ArgumentParser, default: str = "beta-5") -> None
     )
     group.add_argument("--case-file", type=path, metavar="FILE", help="TOML, table [impact]")
     for name, unit in INPUTS.items():
+        value = getattr(BETA_5, name)
+        has = "instead of beta and flow stress" if value is None else f"beta-5: {number(value)}"
         meaning = name.replace("_", " ") + ("" if unit == "1" else f" [{unit}]")
-        group.add_argument(f"--{name.replace('_', '-')}", metavar="X", help=meaning)
+        acts = with_sheet or name not in OF_THE_SHEET
+        text = f"{meaning} ({has})" if acts else argparse.SUPPRESS
+        group.add_argument(option(name), metavar="X", help=text)
 
 
-def case_of(options: argparse.Namespace) -> Impact:
-    """Return the case that the options describe. Raises ValueError or OSError."""
-    return read_case(options.case or "beta-5", options.case_file, _given(options))
+def case_of(options: argparse.Namespace) -> tuple[Impact, list[str]]:
+    """Return the case that the options describe, and a warning for every input that is odd.
+
+    Raises ValueError or OSError.
+    """
+    given = _given(options)
+    case = read_case(options.case or "beta-5", options.case_file, given)
+    return case, doubts(case, given)
 
 
 def is_given(options: argparse.Namespace) -> bool:
