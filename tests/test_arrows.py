@@ -29,7 +29,7 @@ FLOORS: tuple[set[str], ...] = (
 
 ONLY = {
     "spreadsheets": {"reference"},
-    "audit": {"reference", "models", "text"},
+    "audit": {"reference", "models", "reading", "text"},
     "": {"audit", "cases", "models"},  # the homes of the public names of `replication`
 }
 """Packages that may import fewer than all lower floors, and which."""
