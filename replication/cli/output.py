@@ -52,9 +52,14 @@ def put_json(text: str) -> None:
     sys.stdout.write(text)
 
 
+def is_terminal() -> bool:
+    """Return whether stdout is a terminal."""
+    return sys.stdout.isatty()
+
+
 def width(piped: int = 80) -> int:
     """Return the number of columns of the terminal, or `piped` if stdout is not a terminal."""
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else piped
+    return shutil.get_terminal_size().columns if is_terminal() else piped
 
 
 def filled(text: str, indent: str = "", hanging: str = "") -> str:
@@ -70,7 +75,7 @@ def filled(text: str, indent: str = "", hanging: str = "") -> str:
 
 def may_emphasize() -> bool:
     """Return whether bold text may be printed: on a capable terminal, without NO_COLOR."""
-    is_capable = sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
+    is_capable = is_terminal() and os.environ.get("TERM") != "dumb"
     return is_capable and not os.environ.get("NO_COLOR")
 
 
