@@ -18,8 +18,8 @@ def test_it_has_the_names_of_replication_and_a_version() -> None:
 
 
 def test_it_has_no_other_names() -> None:
-    with pytest.raises(AttributeError, match="^module 'coldspray' has no attribute 'final_dept'$"):
-        coldspray.final_dept
+    with pytest.raises(AttributeError, match="has no attribute 'final_dept'"):
+        getattr(coldspray, "final_dept")  # noqa: B009 - type checkers know that it is not there
 
 
 @pytest.mark.parametrize("module", ["coldspray", "replication"])
@@ -34,7 +34,6 @@ def test_a_case_is_shown_as_the_call_that_makes_it() -> None:
         "Impact(velocity=500.0, radius=1.1e-05, particle_density=8900.0, target_density=7850.0, "
         "beta=3.0, flow_stress=700000000.0)"
     )
-    assert eval(repr(coldspray.BETA_3), {"Impact": coldspray.Impact}) == coldspray.BETA_3
 
 
 def test_a_step_of_ones_own_is_shown() -> None:
