@@ -5,8 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from reference.scheme import Scheme
-from replication.cases import in_words
-from replication.cli.case import add_inputs, case_of
+from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme, times, whole
 from replication.cli.output import filled, put, width
 from replication.models.impact import Impact

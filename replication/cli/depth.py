@@ -2,8 +2,8 @@
 
 import argparse
 
-from replication.cases import in_words, inputs_of
-from replication.cli.case import add_inputs, case_of
+from replication.cases import inputs_of
+from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_json, add_quiet
 from replication.cli.output import filled, put
 from replication.text import number
