@@ -47,13 +47,15 @@ def case_of(options: argparse.Namespace) -> tuple[Impact, list[str]]:
     Raises ValueError or OSError.
     """
     given = _given(options)
-    case = read_case(options.case or "beta-5", options.case_file, given)
+    name = "beta-5" if options.case is None else options.case
+    case = read_case(name, options.case_file, given)
     return case, doubts(case, given)
 
 
 def is_given(options: argparse.Namespace) -> bool:
     """Return whether any option names or changes a case."""
-    return bool(options.case or options.case_file or _given(options))
+    named = options.case is not None or options.case_file is not None
+    return named or bool(_given(options))
 
 
 def _given(options: argparse.Namespace) -> dict[str, str]:

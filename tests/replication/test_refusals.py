@@ -128,6 +128,8 @@ def test_what_is_no_toml_is_refused(command: str, content: str, hostile: Path) -
             ["depth", "--case", "beta-4"],
             "there is no case 'beta-4': did you mean beta-5 or beta-3?",
         ),
+        (["depth", "--case", ""], "there is no case '': choose one of beta-3, beta-5"),
+        (["workbook", "--case", ""], "there is no case '': choose one of beta-3, beta-5"),
         (
             ["depth", "--velocity", "nan"],
             ("--velocity: 'nan' is not a finite number with or without a unit, such as '1 m/s'"),
