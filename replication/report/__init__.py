@@ -18,7 +18,13 @@ from replication.report.document import audit_document
 from replication.report.figures import draw
 from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
 from replication.text import (
-    Table, columns, json_text, number, quantity, rows_csv, table_text,
+    Table,
+    columns,
+    json_text,
+    number,
+    quantity,
+    rows_csv,
+    table_text,
 )
 
 FILES = (
