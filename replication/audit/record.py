@@ -130,6 +130,10 @@ class ClaimRecord(_Part, frozen=True):
     repairs: Sequence[Repair]
     slips: Sequence[TriedSlip]
 
+    def __repr__(self) -> str:
+        """A line; `msgspec.structs.asdict` has all fields."""
+        return f"<claim {self.id}: {with_unit(self.claim.text, self.claim.unit)}, {self.verdict}>"
+
     @property
     def id(self) -> str:
         """The claim's id in the ledger."""
