@@ -1,8 +1,9 @@
 """Check that spreadsheet engines give the values that a workbook's cells must have."""
 
 import math
+import re
 import time
-from collections.abc import Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -24,8 +25,50 @@ def repairs_wrong_value(engine: Engine) -> bool:
         return engine.recalculate(path).get("planted", {}).get("A2") == 42
 
 
+_REFERENCE = re.compile(
+    r"""(?:'(?P<sheet>[^']*)'!)?\$?(?P<column>[A-Z])\$?(?P<first>\d+)(?::[A-Z](?P<last>\d+))?\b
+    |(?P<name>[A-Za-z]\w*)\b(?!\()""",
+    re.VERBOSE,
+)
+
+
+def references(plan: WorkbookPlan, place: Place) -> Iterator[Place]:
+    """Yield the cells that the formula of a cell refers to: by address, range or name."""
+    own_sheet, text = place[0], re.sub(r'"[^"]*"', "", plan.cells[place].formula)
+    for match in _REFERENCE.finditer(text):
+        if match["name"]:
+            yield plan.where[match["name"]]
+        else:
+            first = int(match["first"])
+            for row in range(first, int(match["last"] or first) + 1):
+                yield match["sheet"] or own_sheet, f"{match['column']}{row}"
+
+
+def dependents(plan: WorkbookPlan, sources: Collection[Place]) -> set[Place]:
+    """Return these cells, and all whose formulas depend on one of them, however indirectly."""
+    readers: dict[Place, list[Place]] = {}
+    for place, cell in plan.cells.items():
+        for reference in references(plan, place) if cell.formula else ():
+            readers.setdefault(reference, []).append(place)
+    reached, waiting = set(sources), list(sources)
+    while waiting:
+        new = set(readers.get(waiting.pop(), ())) - reached
+        reached |= new
+        waiting += new
+    return reached
+
+
+def inexact(plan: WorkbookPlan) -> set[Place]:
+    """Return the cells whose value depends on LN, SIN, ASIN, a cube root or ROUND.
+
+    Their last digits depend on the program; all other values are the same double everywhere.
+    """
+    functions = re.compile(r"LN\(|SIN\(|\^|ROUND\(")
+    return dependents(plan, [at for at, cell in plan.cells.items() if functions.search(cell.formula)])
+
+
 OF_FUNCTIONS = 32 * 2.0**-52
-"""Relative tolerance of the cells that `WorkbookPlan.inexact` lists.
+"""Relative tolerance of the cells that `inexact` lists.
 
 LN, SIN, ASIN and a cube root are within one ulp in any C library, and flip the last digit of each
 operation after them. The longest chain is the crater's: ASIN, SIN, SIN and twelve products, with
@@ -84,8 +127,9 @@ def tolerances(
     largest: dict[str, float] = {}
     for _, like, number in numbers:
         largest[like] = max(largest.get(like, 0.0), number)
+    functions = inexact(plan)
     return {
-        place: OF_FUNCTIONS * number * (place in plan.inexact) + long_doubles * largest[like]
+        place: OF_FUNCTIONS * number * (place in functions) + long_doubles * largest[like]
         for place, like, number in numbers
     }
 
