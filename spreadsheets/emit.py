@@ -72,6 +72,12 @@ _CORRECTIONS = (
     ("xl/charts/", rb"</c:yVal>", rb'</c:yVal><c:smooth val="0"/>'),
     # XlsxWriter stores the value "" of a formula without the type that marks a text.
     ("xl/worksheets/", rb'(<c r="\w+" s="\d+")(><f>[^<]*</f><v></v>)', rb'\1 t="str"\2'),
+    # All columns after Z are unlocked as Z is; XlsxWriter would look at each of them in each row.
+    (
+        "xl/worksheets/",
+        rb'(max="26" width="[\d.]+" style="(\d+)"/>)</cols>',
+        rb'\1<col min="27" max="16384" width="9.140625" style="\2"/></cols>',
+    ),
 )
 """Changes to what XlsxWriter writes: start of a part's name, pattern and replacement."""
 
@@ -185,8 +191,8 @@ def _set_up(page: Any, sheet: SheetPlan, unlocked: Any) -> None:
         scrolling, first, last = sheet.headed
         page.freeze_panes(f"{scrolling}{last + 1}")
         page.repeat_rows(first - 1, last - 1)
-    # Blank cells take the format of their column.
-    page.set_column("A:XFD", None, unlocked)
+    # Blank cells take the format of their column; the other columns follow in `_CORRECTIONS`.
+    page.set_column("A:Z", None, unlocked)
     for column, width in sheet.widths.items():
         page.set_column(f"{column}:{column}", width, unlocked)
     page.set_landscape()

@@ -28,7 +28,8 @@ FLOORS: tuple[set[str], ...] = (
 
 ONLY = {
     "spreadsheets": {"reference"},
-    "audit": {"reference", "models", "text"},
+    # The record of a claim names the cell of the workbook that computes it.
+    "audit": {"reference", "models", "text", "spreadsheets"},
     "": {"audit", "cases", "models"},  # the homes of the public names of `replication`
 }
 """Packages that may import fewer than all lower floors, and which."""

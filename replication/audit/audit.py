@@ -25,6 +25,7 @@ from replication.audit.record import Verdict
 from replication.audit.verdict import Judgement, Reading
 from replication.models import sheet
 from replication.text import number, powers_of_ten
+from spreadsheets.sheets import cells_of_claims
 
 
 def audit(ledger: Ledger | None = None) -> r.Record:
@@ -118,6 +119,7 @@ class Audit(Results):
             explanation=assessment.reason,
             **self._worked(claim, as_printed.computed),
             shown_by=self.shown(claim),
+            workbook=cells_of_claims().get(claim.id),
             sources=self.sources(claim.id),
             figures=comparison.figures(self) if claim.kind == "remark" else [],
             back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
