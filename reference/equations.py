@@ -48,9 +48,8 @@ Sides = Mapping[str, tuple[Node, ...]]
 """The sides of every printed equation, by the equation's id."""
 
 
-NAMED_FUNCTIONS = ("ln", "log", "expm1", "crater", "normal", "rounded")
-"""The report has the first two. Formulas of the ledger and the findings also have e^x - 1, a
-crater's X/R for a CV/PV, the share of a normal distribution below x, and x to three digits."""
+NAMED_FUNCTIONS = ("ln", "log", "crater")
+"""The report has the first two. Formulas of the ledger also have a crater's X/R for a CV/PV."""
 
 
 _OPERATORS = {

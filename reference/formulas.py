@@ -24,6 +24,7 @@ from reference.arithmetic import Dual, Duals, Floats, Function, Number, Rational
 from reference.equations import Node, Sides, evaluate, read_expression
 from reference.motion import Row, sheet_depth, sheet_rows
 from reference.printed import Place
+from reference.scheme import Scheme
 from reference.units import unit_dimension
 
 Names = Mapping[str, str]
@@ -122,8 +123,8 @@ def function_of(computation: Computation, sides: Sides, names: Iterable[str]) ->
     return value
 
 
-def _cell(column: str, ar: Any, row: int, centered: bool, **inputs: Number) -> Number:
-    rows = sheet_rows(ar, centered=centered, **inputs)
+def _cell(column: str, ar: Any, row: int, scheme: Scheme, **inputs: Number) -> Number:
+    rows = sheet_rows(ar, scheme=scheme, **inputs)
     return getattr(next(islice(rows, row - 1, None)), column)
 
 

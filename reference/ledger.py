@@ -23,6 +23,7 @@ from reference.arithmetic import Arithmetic, Function, Number
 from reference.equations import EquationError, Node, Sides, read_equation
 from reference.formulas import Computation, Entry, Equation, function_of
 from reference.printed import Interval, Place, Printed, Rounding, parse, place_of
+from reference.scheme import Scheme
 from reference.units import Dimension, raised, to_si, unit_dimension
 
 INFERRED = "inferred:"
@@ -143,14 +144,13 @@ class Convention(msgspec.Struct, frozen=True):
 
     `rounding` is how values became printed text. With `choices_exact`, what the author chose
     (500 m/s, 700 MPa, 0.2 ns) is exact, not rounded; with `header_exact`, so are the numbers
-    above the rows of Table A-1. With `centered`, the sheet takes the drag at the velocity in the
-    middle of a time step, otherwise at the velocity at its start.
+    above the rows of Table A-1. `scheme` is how the sheet is computed.
     """
 
     rounding: Rounding = Rounding.AWAY
     choices_exact: bool = True
     header_exact: bool = False
-    centered: bool = False
+    scheme: Scheme = Scheme.PUBLISHED
 
 
 def in_header(cell: str | None) -> bool:
@@ -494,18 +494,20 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     # Claims as functions of their entries
 
-    def function(self, claim: Claim, *, reading: str = "", centered: bool = False) -> Function:
+    def function(
+        self, claim: Claim, *, reading: str = "", scheme: Scheme = Scheme.PUBLISHED
+    ) -> Function:
         """Return a claim's computation, as a function of an arithmetic and of its entries by id.
 
         An entry that occurs in several inputs is a single variable of that function. `reading` is
-        the name of one of the claim's computations, and `centered` that of `Convention`.
+        the name of one of the claim's computations. Only what runs the sheet depends on `scheme`.
         """
         computation = claim.computations[reading]
         settings: dict[str, Any] = {}
         if computation.by_row:
             settings["row"] = claim.row
         if computation.by_scheme:
-            settings["centered"] = centered
+            settings["scheme"] = scheme
         inputs = dict(claim.inputs)
         if "power" in inputs:  # an exponent stays exact
             settings["power"] = self.value(*inputs.pop("power"))

@@ -1,6 +1,7 @@
 """The two schemes of the sheet: the report does not say at which velocity it takes the drag."""
 
 from enum import StrEnum
+from typing import NoReturn
 
 
 class Scheme(StrEnum):
@@ -15,12 +16,19 @@ class Scheme(StrEnum):
 
     >>> Scheme("centered") is Scheme.CENTERED, Scheme.PUBLISHED == "published"
     (True, True)
+    >>> Scheme("upwind")
+    Traceback (most recent call last):
+    ValueError: there is no scheme 'upwind': choose one of published, centered
     >>> Scheme.CENTERED.order
     2
     """
 
     PUBLISHED = "published"
     CENTERED = "centered"
+
+    @classmethod
+    def _missing_(cls, value: object) -> NoReturn:
+        raise ValueError(f"there is no scheme {value!r}: choose one of {', '.join(cls)}")
 
     @property
     def order(self) -> int:

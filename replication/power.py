@@ -14,7 +14,8 @@ import msgspec
 
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
-from replication.audit.explain import dependents, disagreeing, edits_of
+from replication.audit.explain import dependents, edits_of
+from replication.audit.verdict import disagreeing
 from replication.text import Table
 
 
@@ -124,16 +125,16 @@ def new_failures(
     """
     wrong = set()
     for name in equations:
-        assessed = audit.equation(name, constants=False)
+        assessed = audit.judge.equation(name, constants=False)
         # An equation that fails in the true report, too, must fail in another way.
-        if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
+        if assessed.verdict.is_failure and assessed.checks != truth.judge.equation(name).checks:
             wrong.add(name)
     constants = {claim.id for claim in audit.ledger.claims.values() if claim.within in wrong}
     return wrong | {
         name
         for name in constants.union(claims)
-        if audit.assessment(audit.ledger.claims[name]).verdict.is_doubtful
-        and not truth.assessment(truth.ledger.claims[name]).verdict.is_doubtful
+        if audit.judge.assess(audit.ledger.claims[name]).verdict.is_doubtful
+        and not truth.judge.assess(truth.ledger.claims[name]).verdict.is_doubtful
     }
 
 

@@ -5,6 +5,7 @@ import sys
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -45,6 +46,20 @@ def printable(text: str) -> str:
     'a\\nb\\x1b[31m'
     """
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
+def advice(text: str, known: Iterable[str], otherwise: str | None = None) -> str:
+    """Say which of the known names a user probably meant by an unknown one.
+
+    Without a similar one it is `otherwise`, or all of them.
+
+    >>> advice("velocty", ["velocity", "radius"]), advice("x", ["velocity", "radius"])
+    ('did you mean velocity?', 'choose one of velocity, radius')
+    """
+    names = list(known)
+    if similar := get_close_matches(text[:80], names, n=3):
+        return f"did you mean {' or '.join(similar)}?"
+    return f"choose one of {', '.join(names)}" if otherwise is None else otherwise
 
 
 @contextmanager
@@ -118,7 +133,7 @@ def check_keys(
     known = [*wanted, *allowed]
     for key in table:
         if key not in known:
-            raise ValueError(f"there is no {quoted(key)} here: choose one of {', '.join(known)}")
+            raise ValueError(f"there is no {quoted(key)} here: {advice(key, known)}")
     for key in wanted:
         if key not in table:
             raise ValueError(f"{quoted(key)} is missing")

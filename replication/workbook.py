@@ -64,7 +64,7 @@ class Workbook:
 
 def build(
     case: Impact | None = None,
-    scheme: Scheme = Scheme.PUBLISHED,
+    scheme: Scheme | str = Scheme.PUBLISHED,
     rows: int | None = None,
     record: Record | None = None,
     *,
@@ -73,10 +73,10 @@ def build(
     """Build the workbook of a case; without a case, the report's own.
 
     The report's own has both of its cases, and what concerns only the report: the sheets with its
-    longer time step, the check of Table A-1, and the audit. rows: how many to prepare after row 0; by
-    default twice as many as the longest case takes. record: the finished audit, which is made if it
-    is needed but not given. Each input is rounded to a value that its cell can hold. Raises
-    ValueError for an input outside of its limits, or too few rows.
+    longer time step, the check of Table A-1, and the audit. scheme: a `Scheme`, or its text. rows:
+    how many to prepare after row 0; by default twice as many as the longest case takes. record: the
+    finished audit, which is made if it is needed but not given. Each input is rounded to a value
+    that its cell can hold. Raises ValueError for an input outside of its limits, or too few rows.
 
     >>> book = build(BETA_5)
     >>> place = book.plan.where["depth_um"]
@@ -123,7 +123,7 @@ def build(
 
 def result_of(record: Record, scheme: Scheme, ledger: Ledger) -> AuditResult:
     """Return what the workbook shows of the audit, with the verdicts under the given scheme."""
-    convention = in_words(Convention(centered=scheme is Scheme.CENTERED))
+    convention = in_words(Convention(scheme=scheme))
     verdicts, explanations = {}, {}
     for claim in record.claims:
         verdicts[claim.id], explanations[claim.id] = claim.verdict, claim.explanation

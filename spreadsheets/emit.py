@@ -157,7 +157,9 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
         for rule in sheet.rules:
             # The format of a rule names only what it changes, so neither font nor number format.
             options = {
-                "type": "formula", "criteria": rule.formula, "format": book.add_format(RULES[rule.style]),
+                "type": "formula",
+                "criteria": rule.formula,
+                "format": book.add_format(RULES[rule.style]),
             }
             page.conditional_format(rule.cells, options)
         if sheet.chart:

@@ -64,7 +64,9 @@ def inexact(plan: WorkbookPlan) -> set[Place]:
     Their last digits depend on the program; all other values are the same double everywhere.
     """
     functions = re.compile(r"LN\(|SIN\(|\^|ROUND\(")
-    return dependents(plan, [at for at, cell in plan.cells.items() if functions.search(cell.formula)])
+    return dependents(
+        plan, [at for at, cell in plan.cells.items() if functions.search(cell.formula)]
+    )
 
 
 OF_FUNCTIONS = 32 * 2.0**-52

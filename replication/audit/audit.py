@@ -12,18 +12,18 @@ from typing import Any
 
 from msgspec.structs import replace
 
-from reference import findings as asserted
 from reference import ledger as ledgers
 from reference.arithmetic import Floats
 from reference.equations import MATHML, PLAIN, NoValueError, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.scheme import Scheme
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.findings import Evidence, Results
+from replication.audit.findings import findings
 from replication.audit.record import Verdict
+from replication.audit.results import Results
 from replication.audit.verdict import Judgement, Reading
-from replication.models import sheet
 from replication.text import number, powers_of_ten
 from spreadsheets.sheets import cells_of_claims
 
@@ -40,13 +40,12 @@ class Audit(Results):
         """Return the finished audit as data."""
         claims = [self.claim(claim) for claim in self.ledger.claims.values()]
         equations = [self._equation(name) for name in self.ledger.equations]
-        findings = [Evidence(self, finding).record() for finding in asserted.load().values()]
-        headline = next(finding for finding in findings if finding.kind == "headline")
+        headline, *others = findings(self)
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
         counts = self._counts(claims, equations)
         count = "1 number fails." if counts.failing == 1 else f"{counts.failing} numbers fail."
-        inferred = product(self.ledger.inferred, sheet.SCHEMES)
+        inferred = product(self.ledger.inferred, Scheme)
         return r.Record(
             schema=r.SCHEMA,
             headline=headline.statement if headline.holds else count,
@@ -57,7 +56,7 @@ class Audit(Results):
             failing=failing,
             claims=claims,
             equations=equations,
-            findings=[finding for finding in findings if finding is not headline],
+            findings=others,
             inferred=[self._inferred(*pair) for pair in inferred],
             approaches=comparison.approaches(self),
             sensitivity=comparison.sensitivity(self),
@@ -94,7 +93,7 @@ class Audit(Results):
 
     def claim(self, claim: Claim) -> r.ClaimRecord:
         """Return the record of one claim."""
-        assessment = self.assessment(claim)
+        assessment = self.judge.assess(claim)
         readings = [self._reading(claim, reading) for reading in assessment.readings]
         as_printed, *others = readings or [_NO_READING]
         is_open = assessment.verdict.is_open
@@ -116,11 +115,11 @@ class Audit(Results):
             readings=others,
             rests_on={name: list(entries) for name, entries in claim.inputs.items()},
             assumes=wording.assumptions(self.judge, claim, as_printed.computed),
-            explanation=assessment.reason,
+            explanation=wording.explanation(self.judge, claim, assessment),
             **self._worked(claim, as_printed.computed),
-            shown_by=self.shown(claim),
+            shown_by=self.judge.shown(claim),
             workbook=cells_of_claims().get(claim.id),
-            sources=self.sources(claim.id),
+            sources=self.judge.sources(claim.id),
             figures=comparison.figures(self) if claim.kind == "remark" else [],
             back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
             repairs=self.explainer.repairs(claim.id) if is_open else [],
@@ -150,7 +149,7 @@ class Audit(Results):
         """
         nothing = dict.fromkeys(("formula", "mathml", "by_hand"))
         premises = claim.computation.premises if claim.computation else {}
-        wrong = self.assessment(claim).verdict is Verdict.NOT_REPRODUCED
+        wrong = self.judge.assess(claim).verdict is Verdict.NOT_REPRODUCED
         if computed is None or not wrong or not premises:
             return nothing
         *_, premise = premises.values()  # the last may give the value itself
@@ -192,7 +191,7 @@ class Audit(Results):
     # Equations and inferred inputs
 
     def _equation(self, name: str) -> r.EquationRecord:
-        assessed = self.equation(name)
+        assessed = self.judge.equation(name)
         place = assessed.equation.place
         return r.filled(
             r.EquationRecord,
@@ -207,12 +206,12 @@ class Audit(Results):
             repairs=self.explainer.repairs(name) if assessed.verdict.is_failure else [],
         )
 
-    def _inferred(self, name: str, scheme: str) -> r.InferredRecord:
-        centered = scheme == "centered"
-        inference = self.judge.inference(INFERRED + name, centered=centered)
+    def _inferred(self, name: str, scheme: Scheme) -> r.InferredRecord:
+        is_usual = scheme is Scheme.PUBLISHED
+        inference = self.judge.inference(INFERRED + name, scheme=scheme)
         entry, si = inference.entry, 1 / to_si(inference.entry.unit)
         inner = inference.inner.scaled(si).ends
-        rounded = None if centered else inference.admitted(Convention())
+        rounded = inference.admitted(Convention()) if is_usual else None
         return r.filled(
             r.InferredRecord,
             entry,
@@ -225,7 +224,7 @@ class Audit(Results):
             possible_with_rounded_inputs=rounded and _doubles(*rounded.scaled(si).ends),
             evidence=list(inference.agreeing),
             odd=list(inference.odd),
-            sources=[] if centered else self.sources(INFERRED + name),
+            sources=self.judge.sources(INFERRED + name) if is_usual else [],
         )
 
 
@@ -282,7 +281,7 @@ def _provenance() -> dict[str, object]:
     """Return the versions of the programs in use and the hashes of the files that were read."""
     folder = resources.files("reference") / "report"
     libraries = ("coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter")
-    files = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")
+    files = ("de_rosset_2006.txt", "ledger.toml", "sources.toml")
     return {
         "command": "coldspray audit",
         "python": ".".join(map(str, sys.version_info[:3])),

@@ -12,42 +12,12 @@ from functools import cache, cached_property
 from itertools import pairwise, product
 from string import digits
 
-from reference.arithmetic import Floats
 from reference.enclosure import Solutions, enclose, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.printed import parse
 from reference.units import to_si
-from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, Shown, SlipRecord
-from replication.audit.verdict import Judge, follows, is_consistent
-
-# A check in doubles
-
-_CLOSE = Fraction(1, 10**9)
-"""The largest relative difference at which a double agrees with an exact number, such as 2/3."""
-
-Values = Mapping[str, Fraction]
-"""Values of some entries (SI) in place of the printed ones."""
-
-
-def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> bool:
-    """Return whether a claim agrees with its computation, in doubles, some entries changed."""
-    if claim.restates:
-        return is_consistent(ledger, claim)
-    target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
-    inputs = {name: float(changed.get(name, value)) for name, value in values.items()}
-    try:
-        value = Fraction(ledger.function(claim, reading=reading)(Floats(), **inputs))
-    except (ArithmeticError, ValueError, TypeError):
-        return False  # these inputs give no result, or only a complex one
-    if target.is_point and target.lower is not None:
-        return abs(value - target.lower) <= _CLOSE * abs(target.lower)
-    return target.contains(value)
-
-
-def disagreeing(ledger: Ledger, names: Iterable[str], changed: Values) -> set[str]:
-    """Return which of the claims disagree with their computations, some entries changed."""
-    claims = (ledger.claims[name] for name in names)
-    return {c.id for c in claims if c.computation is not None and not agrees(ledger, c, changed)}
+from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, SlipRecord
+from replication.audit.verdict import Judge, Values, agrees, disagreeing, follows
 
 
 def dependents(ledger: Ledger, name: str) -> set[str]:
@@ -122,28 +92,6 @@ class Explainer:
         budget = SHEET_BUDGET if claim.by_whole_sheet else _BUDGET
         return solve(function, name, (low, high), claim.target(), budget, others)
 
-    def shown(self, chosen: Claim) -> Shown | None:
-        """Return the range around a chosen number for which the claims that confirm it agree.
-
-        Its ends are found by bisection, in doubles. It is None if no claim confirms the number, or
-        if one of them disagrees with it.
-        """
-        if not chosen.shown_by or not self._is_confirmed(chosen, chosen.value):
-            return None
-        ends = []
-        for limit in self.ledger.search(chosen.id)[:2]:
-            good, bad = chosen.value, limit
-            for _ in range(_BISECTIONS):
-                middle = (good + bad) / 2
-                good, bad = (middle, bad) if self._is_confirmed(chosen, middle) else (good, middle)
-            ends.append(float(good / chosen.si))
-        return Shown(claims=list(chosen.shown_by), interval=(ends[0], ends[1]), unit=chosen.unit)
-
-    def _is_confirmed(self, chosen: Claim, value: Fraction) -> bool:
-        """Return whether all claims that confirm a number agree with this value (SI) of it."""
-        ledger, changed = self.ledger, {**self.judge.assumed, chosen.id: value}
-        return all(agrees(ledger, ledger.claims[name], changed) for name in chosen.shown_by)
-
     # Misprints
 
     def repairs(self, name: str) -> list[RepairRecord]:
@@ -211,7 +159,7 @@ class Explainer:
         if claim.computation is not None:
             pairs = product(claim.computations, self._alternatives)
             return next((r for r, values in pairs if agrees(changed, claim, values, r)), None)
-        if entry != name or not self._is_confirmed(claim, claim.value):
+        if entry != name or not self.judge.is_confirmed(claim, claim.value):
             return None
         sourced = not sources or any(claim.target().meets(s.interval) for s in sources)
         return "" if sourced else None
@@ -286,9 +234,6 @@ class Explainer:
             records.append(SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits))
         return records
 
-
-_BISECTIONS = 40
-"""This many narrow the search to 1e-12 of its width, which is finer than any page shows."""
 
 _BUDGET = 250
 """The most parts of a search; some 200 are needed for k_t, as the depth hardly depends on it."""

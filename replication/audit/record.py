@@ -81,7 +81,7 @@ def in_words(convention: Convention) -> dict[str, Any]:
         "rounding": convention.rounding.value,
         "choices": "exact" if convention.choices_exact else "rounded",
         "header": "exact" if convention.header_exact else "rounded",
-        "scheme": "centered" if convention.centered else "published",
+        "scheme": convention.scheme,
     }
 
 
@@ -250,10 +250,11 @@ class EquationRecord(_Part, frozen=True):
     repairs: list[RepairRecord]
 
 
-class EvidenceRecord(_Part, frozen=True):
-    """A number in a finding's text, as asserted and as computed by this audit.
+class Evidence(_Part, frozen=True):
+    """A number in a finding's text, as asserted and as computed here, or the outcome of a proof.
 
-    `computed` is null where it has no value, which a misprint in the report may cause.
+    `asserted` is the number as the text prints it, perhaps after a relation (">= 17.7"), or "yes"
+    or "no". `computed` is null where it has no value, which a misprint in the report may cause.
     """
 
     name: str
@@ -263,8 +264,12 @@ class EvidenceRecord(_Part, frozen=True):
     computed: float | bool | None
     holds: bool
 
+    def __str__(self) -> str:
+        """Return the number as it stands in the text, without its relation."""
+        return self.asserted.rpartition(" ")[2]
 
-class FindingRecord(_Part, frozen=True):
+
+class Finding(_Part, frozen=True):
     """What a failed or surprising claim shows about the report, with the evidence."""
 
     id: str
@@ -276,7 +281,7 @@ class FindingRecord(_Part, frozen=True):
     by_hand: str
     settle: str
     holds: bool
-    evidence: list[EvidenceRecord]
+    evidence: list[Evidence]
 
 
 class InferredRecord(_Part, frozen=True):
@@ -410,7 +415,7 @@ class Record(_Part, frozen=True):
     failing: list[str]
     claims: list[ClaimRecord]
     equations: list[EquationRecord]
-    findings: list[FindingRecord]
+    findings: list[Finding]
     inferred: list[InferredRecord]
     approaches: list[Approach]
     sensitivity: list[Sensitivity]

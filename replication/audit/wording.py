@@ -5,6 +5,7 @@ from fractions import Fraction
 
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval, Rounding
+from reference.scheme import Scheme
 from reference.units import to_si
 from replication.audit.record import ConstantRecord, Shown, SourceRecord, Verdict
 from replication.audit.verdict import Assessment, EquationAssessment, Judge, Judgement, Reading
@@ -14,17 +15,38 @@ REMARK = "A remark, not a number: the figures below help to judge it."
 
 
 def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
-    """Explain the verdict on a claim that has a computation, or repeats another claim."""
-    if assessed.reason:
-        return f"With the numbers as printed it cannot be computed: {assessed.reason}."
-    if not assessed.readings:
-        if "value" not in claim.inputs:
-            return f"The report lists {len(claim.inputs)}."
-        restated = judge.ledger.claims[claim.inputs["value"][0]]
-        but = "" if assessed.verdict is Verdict.CONSISTENT else ", which does not agree"
-        shown = quantity(restated.shown, restated.unit)
-        return f"It repeats or compares with {shown} ({restated.title}){but}."
-    first, *others = assessed.readings
+    """Explain the verdict on a claim by what it rests on."""
+    ledger = judge.ledger
+    if assessed.verdict is Verdict.REMARK:
+        return REMARK
+    if assessed.no_value:
+        return f"With the numbers as printed it cannot be computed: {assessed.no_value}."
+    if assessed.readings:
+        return recomputation(judge, claim, assessed.readings)
+    if (constant := judge.constant(claim)) is not None:
+        return constant_explanation(ledger, claim, constant)
+    if claim.restates:
+        return repetition(ledger, claim, assessed.verdict)
+    if records := judge.sources(claim.id):
+        return sources(ledger, claim, records)
+    if claim.shown_by:
+        return fitting(ledger, claim, judge.shown(claim))
+    return f"Nothing in the report decides it: {claim.why}."
+
+
+def repetition(ledger: Ledger, claim: Claim, verdict: Verdict) -> str:
+    """Explain the verdict on a claim that repeats another number of the report, or counts."""
+    if "value" not in claim.inputs:
+        return f"The report lists {len(claim.inputs)}."
+    restated = ledger.claims[claim.inputs["value"][0]]
+    but = "" if verdict is Verdict.CONSISTENT else ", which does not agree"
+    shown = quantity(restated.shown, restated.unit)
+    return f"It repeats or compares with {shown} ({restated.title}){but}."
+
+
+def recomputation(judge: Judge, claim: Claim, readings: Sequence[Reading]) -> str:
+    """Explain the verdict on a claim that is computed: the value by each reading, and the proof."""
+    first, *others = readings
     what, interval = first.summary[:1].upper() + first.summary[1:], claim.interval()
     inside = "" if first.verdict is Verdict.REPRODUCED else "not "
     relation, shown = "as" if interval.is_point else "in", str(interval).replace("E", "e")
@@ -88,7 +110,7 @@ def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
 def holds(claim: Claim, reading: Reading) -> str:
     """Say under which conventions the verdict holds, and which would change it."""
     tried = [judgement.convention for judgement in reading.judgements]
-    usual = [c for c in tried if (c.rounding, c.centered) == (tried[0].rounding, tried[0].centered)]
+    usual = [c for c in tried if (c.rounding, c.scheme) == (tried[0].rounding, tried[0].scheme)]
     names = {"choices_exact": "the author's choices", "header_exact": "the header of Table A-1"}
     varied = [name for key, name in names.items() if len({getattr(c, key) for c in usual}) > 1]
     scope = "three ways of rounding"
@@ -120,7 +142,7 @@ _UNUSUAL = (
     ("rounding", Rounding.CUT, "digits {cut_off}are cut off"),
     ("choices_exact", False, "what the author chose is rounded, too"),
     ("header_exact", True, "the header of Table A-1 is exact"),
-    ("centered", True, "the drag is taken at the middle velocity"),
+    ("scheme", Scheme.CENTERED, "the drag is taken at the middle velocity"),
 )
 """The settings of a convention that differ from the usual one, in words."""
 

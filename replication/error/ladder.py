@@ -8,11 +8,12 @@ from itertools import islice, pairwise
 from typing import Any
 
 from reference.motion import Trajectory, sheet_rows
+from reference.scheme import Scheme
 from replication.cases import inputs_of
 from replication.error import warnings
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
-from replication.models.sheet import MAX_STEPS, SCHEMES, Sheet, run
+from replication.models.sheet import MAX_STEPS, Sheet, run
 from replication.text import aligned, number
 
 Budget = dict[str, float | None]
@@ -46,8 +47,9 @@ def split(sheet: Sheet) -> tuple[float, Budget]:
     x, v, lag = real(0), motion.velocity, real(0)
     if sheet.steps:
         inputs = {name: real(Fraction(value)) for name, value in impact.motion.items()}
-        ways: Any = {"centered": sheet.scheme == "centered", "most_rows": sheet.steps}
-        rows = sheet_rows(motion.reals, **inputs, step=step, **ways)
+        rows = sheet_rows(
+            motion.reals, **inputs, step=step, scheme=sheet.scheme, most_rows=sheet.steps
+        )
         last = next(islice(rows, sheet.steps - 1, None))
         x, v, lag = last.depth, last.velocity_final, last.velocity_final * step / 2
     if abs(v) > motion.velocity:
@@ -71,7 +73,9 @@ def ladder(step: float, levels: int) -> list[float]:
     return [step * 2.0 ** (4 - k) for k in range(levels)]
 
 
-def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") -> dict[str, Any]:
+def converge(
+    impact: Impact, steps: Sequence[float], scheme: str = Scheme.PUBLISHED
+) -> dict[str, Any]:
     """Run the sheet at each step, coarsest first: the JSON of `coldspray converge`.
 
     Lengths are in m. For each level, `error` and `budget` are those of `split`, `order` is the
@@ -79,13 +83,14 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     and `regime` names what governs the error. `limit`, an estimate of the depth at the stop
     velocity, `observed_order` and `gci` come from the three finest depths, without the exact one;
     where they are None, `limit_undefined` says why. Raises ValueError for fewer than two steps, for
-    steps that do not decrease, and where `run` does.
+    steps that do not decrease, and where `run` does, which also says what `scheme` may be.
 
     >>> from replication.cases import BETA_5
     >>> finest = converge(BETA_5, [4e-10, 2e-10, 1e-10])["levels"][-1]
     >>> f"{finest['time_step_order']:.2f}", finest["regime"]
     ('1.02', 'asymptotic')
     """
+    scheme = Scheme(scheme)
     if len(steps) < 2 or any(b >= a for a, b in pairwise(steps)):
         raise ValueError("convergence needs two steps or more, each shorter than the one before")
     for step in steps:  # if one needs too many rows, fail before the long work
@@ -94,7 +99,7 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     for step in steps:  # again, as a million rows for every step would not fit into memory
         sheet = run(replace(impact, step=step), scheme)
         levels.append(_level(sheet, levels[-1] if levels else None))
-    order, finest, motion = SCHEMES[scheme].order, levels[-3:], exact_motion(impact)
+    order, finest, motion = scheme.order, levels[-3:], exact_motion(impact)
     limit = extrapolated(steps[-3:], [level["depth"] for level in finest], order)
     meaningless = any(level["regime"] == "meaningless" for level in finest)
     if meaningless and not limit["limit_undefined"]:
@@ -127,7 +132,7 @@ def _level(sheet: Sheet, coarse: Level | None) -> Level:
         "warnings": list(warnings(sheet).values()),
         "order": order,
         "time_step_order": time_step_order,
-        "regime": regime(error, budget, time_step_order, SCHEMES[sheet.scheme].order),
+        "regime": regime(error, budget, time_step_order, sheet.scheme.order),
     }
 
 
@@ -203,7 +208,7 @@ def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) 
     return result | {"limit": limit, "observed_order": order, "gci": gci}
 
 
-def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> dict[str, Any]:
+def step_for_digits(impact: Impact, digits: int, scheme: str = Scheme.PUBLISHED) -> dict[str, Any]:
     """Find a step that gives this many correct digits, as its halvings do; 1 % more does not.
 
     Correct means within half a unit of the last of these digits of the exact depth at rest. Where

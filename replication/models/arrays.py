@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial, wraps
 from typing import Any
 
+from reference.scheme import Scheme
 from replication.models import crater, depth, impact, motion, sheet
 from replication.models.impact import MAY_BE_ZERO, InputError, check, check_range
 
@@ -136,7 +137,8 @@ def _histories(*values: Any) -> Any:
 
 def run_many(
     velocity: Any, radius: Any, particle_density: Any, target_density: Any, resistance: Any,
-    step: Any = impact.STEP, stop_velocity: Any = impact.STOP_VELOCITY, scheme: str = "published",
+    step: Any = impact.STEP, stop_velocity: Any = impact.STOP_VELOCITY,
+    scheme: str = Scheme.PUBLISHED,
 ) -> Any:  # fmt: skip
     """Final depth X [m] and number of steps of the report's sheet, for cases that broadcast.
 
@@ -149,8 +151,7 @@ def run_many(
     (['10.03', '7.67'], [178, 131])
     """
     inputs = locals()
-    sheet.check_scheme(inputs.pop("scheme"))
-    centered = scheme == "centered"
+    centered = Scheme(inputs.pop("scheme")) is Scheme.CENTERED
     compute = partial(
         _computed,
         lambda *case: _filled(sheet.last_row, *case, centered),

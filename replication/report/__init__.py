@@ -10,10 +10,9 @@ from typing import Any
 
 import msgspec
 
-from reference import findings as asserted
 from reference.ledger import INFERRED, Ledger, in_header
 from replication import page
-from replication.audit.record import ClaimRecord, Record, Verdict
+from replication.audit.record import ClaimRecord, Finding, Record, Verdict
 from replication.power import measured
 from replication.report import words
 from replication.report.figures import draw
@@ -187,21 +186,29 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
     return _terminal(prose, context, width, strong)
 
 
-def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) -> str:
-    """Write one claim with all that its verdict rests on; other entries are named by the ledger."""
+def proof(
+    claim: ClaimRecord,
+    findings: Sequence[Finding],
+    ledger: Ledger,
+    width: int,
+    strong: bool = False,
+) -> str:
+    """Write one claim with all that its verdict rests on, and the titles of the findings on it.
+
+    Other entries are named by the ledger.
+    """
     names = {name: Named(e.title) for name, e in ledger.equations.items()}
     for name, inferred in ledger.inferred.items():
         value = words.measured(float(inferred.nominal), inferred.unit)
         names[f"{INFERRED}{name}"] = Named(inferred.title, value=value)
     for name, entry in ledger.claims.items():
         names[name] = Named(entry.title, value=quantity(entry.shown, entry.unit))
-    findings = (f for f in asserted.load().values() if f.kind != "headline")
     context = {
         "record": None,
         "claim": claim,
         "facts": words.facts(claim, names),
         "tables": words.tried(claim),
-        "findings": [finding.title for finding in findings if claim.id in finding.claims],
+        "findings": [finding.title for finding in findings],
     }
     symbols = (symbol.shown for symbol in ledger.symbols.values())
     return _terminal(Prose(TERMINAL, symbols, names), context, width, strong)

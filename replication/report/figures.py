@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from html import escape
 from math import log10
 
+from reference.scheme import Scheme
 from replication.audit.record import Record
-from replication.models.sheet import SCHEMES
 from replication.report.words import shown_range
 
 INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
@@ -300,7 +300,7 @@ def _convergence(record: Record) -> _Plot:
         kind = kind if beta == greatest else f"hollow {kind}"
         plot.line(points, color)
         plot.marks(kind, color, points)
-        name = f"drag at the {SCHEMES[scheme].drag_at} velocity, β = {beta:g}"
+        name = f"drag at the {Scheme(scheme).drag_at} velocity, β = {beta:g}"
         legend[name] = (kind, color)
         errors = ", ".join(f"{error:.2g} nm at {step:g} ns" for step, error in points[::2])
         words.append(f"{name}: {errors}")

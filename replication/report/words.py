@@ -14,11 +14,11 @@ from html.entities import html5
 from typing import NamedTuple
 
 from reference.ledger import shown
+from reference.scheme import Scheme
 from reference.units import superscript
 from replication.audit import record as r
 from replication.audit.comparison import SHARES
 from replication.cases import INPUTS
-from replication.models.sheet import SCHEMES
 from replication.text import Table, between, number, powers_of_ten, quantity, rounded
 
 
@@ -198,7 +198,7 @@ def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
     return Table(caption, heads, rows)
 
 
-def evidence(finding: r.FindingRecord) -> Table:
+def evidence(finding: r.Finding) -> Table:
     """Return the numbers of a finding, as stated and as computed."""
     rows = [
         (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
@@ -207,12 +207,12 @@ def evidence(finding: r.FindingRecord) -> Table:
     return Table("The finding's numbers, recomputed", ("what", "stated", "computed"), rows)
 
 
-def computed(piece: r.EvidenceRecord) -> str:
+def computed(piece: r.Evidence) -> str:
     """Return a finding's computed number, with two digits more than the stated one.
 
     A number that must exceed a bound is rounded down, one that must stay below is rounded up.
 
-    >>> piece = r.EvidenceRecord(
+    >>> piece = r.Evidence(
     ...     name="", means="", unit="1", asserted=">= 1.147", computed=1.1475699, holds=True
     ... )
     >>> computed(piece)
@@ -255,7 +255,7 @@ def ladders(record: r.Record) -> Table:
     for level in record.ladders:
         text = f"{level.depth * 1e6:.6f} ({level.error * 1e9:+.3f})"
         rows.setdefault(level.step, [f"{number(level.step * 1e9)} ns"]).append(text)
-    heads = (f"beta = {beta:g}, {SCHEMES[scheme].drag_at} velocity" for beta, scheme in columns)
+    heads = (f"beta = {beta:g}, {Scheme(scheme).drag_at} velocity" for beta, scheme in columns)
     caption = "Final depth of the sheet [um] (error [nm]), by the velocity at which drag is taken"
     return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
 

@@ -61,7 +61,9 @@ def verdict_colors(cells: str) -> list[Rule]:
     return [Rule(cells, f'=${first}="{words}"', style) for words, style in styles.items()]
 
 
-def audit_sheet(ledger: Ledger, audited: AuditResult, computed_in: Mapping[str, Place]) -> SheetPlan:
+def audit_sheet(
+    ledger: Ledger, audited: AuditResult, computed_in: Mapping[str, Place]
+) -> SheetPlan:
     """Plan the sheet of all claims; `computed_in` is the cell that computes a claim, by its id."""
     about = "Every printed number: what prints like it, computed value, verdict, its cell"
     sheet = SheetPlan(ledger=ledger, name="Audit", about=about)

@@ -406,7 +406,9 @@ def _exact(sheet: SheetPlan, case: CaseSheet) -> None:
         f"X_R_stop{s}", "X/R", "normalized depth at v_stop", depth(f"c_stop{s}", f"h_stop{s}"),
         source=root,
     )  # fmt: skip
-    sheet.line(f"stop_share{s}", "", "depth at v_stop over that at rest", f"=X_R_stop{s}/X_R_rest{s}")
+    sheet.line(
+        f"stop_share{s}", "", "depth at v_stop over that at rest", f"=X_R_stop{s}/X_R_rest{s}"
+    )
 
 
 def _state(sheet: SheetPlan, case: CaseSheet) -> None:
@@ -422,7 +424,9 @@ def _state(sheet: SheetPlan, case: CaseSheet) -> None:
         f"=IF(travel{s}-travel_most>travel_most/1000000000000,1,0)",
         source="Δt V/R above travel_most", shown=yes,
     )  # fmt: skip
-    sheet.line(f"over_rest{s}", "", "depth over the depth at rest", f"=normalized_depth{s}/X_R_rest{s}")
+    sheet.line(
+        f"over_rest{s}", "", "depth over the depth at rest", f"=normalized_depth{s}/X_R_rest{s}"
+    )
     sheet.line(
         f"too_deep{s}", "", "deeper than at rest", f"=IF(over_rest{s}>1+excess_most,1,0)",
         source="above 1 + excess_most", shown=yes,
@@ -460,7 +464,9 @@ def _comparison(sheet: SheetPlan, case: CaseSheet) -> None:
     s, fine = case.suffix, f"depth_um{case.input_suffix}"
     sheet.row += 1
     sheet.block("Against the sheet with the step dt_s")
-    sheet.line(f"longer{s}", "", "its time step is longer", "=IF(dt_coarse>dt_s,1,0)", shown='"yes";;"no"')
+    sheet.line(
+        f"longer{s}", "", "its time step is longer", "=IF(dt_coarse>dt_s,1,0)", shown='"yes";;"no"'
+    )
     sheet.line(
         f"fine_depth_um{s}", "X", "final depth with dt_s", f"={fine}", "um",
         beside=f"depth-beta-{case.beta}" if case.is_reports else "",

@@ -113,9 +113,7 @@ def _contact(sheet: SheetPlan) -> None:
     sheet.row += 1
     sheet.block("Contact circle of the mean particle (section 3)")
     third = sheet.ledger.value("observed-third")
-    sheet.line(
-        "y_contact", "X/R", "normalized depth", f"={third}", beside="observed-third"
-    )
+    sheet.line("y_contact", "X/R", "normalized depth", f"={third}", beside="observed-third")
     sheet.line(
         "contact", "2a", "diameter of the contact circle",
         "=D_mean*SQRT(y_contact*(2-y_contact))", "m",

@@ -101,9 +101,7 @@ def _failures(sheet: SheetPlan, audited: AuditResult, computed_in: Mapping[str, 
     _heads(sheet, "Where public sources differ", *beside, right="BC")
     for name in audited.differing:
         _failure(sheet, name, audited, computed_in)
-    _heads(
-        sheet, "Verdicts of the audit", "Entries", "", "Live verdicts", "Cells", right="BDE"
-    )
+    _heads(sheet, "Verdicts of the audit", "Entries", "", "Live verdicts", "Cells", right="BDE")
     counted = [(verdict, count) for verdict, count in audited.counts.items() if count]
     for (verdict, count), live in zip_longest(counted, [*LIVE_VERDICTS.items()][: len(counted)]):
         cells = {"A": Cell(verdict, "link", link=("Audit", "A1")), "B": recorded(float(count))}
@@ -140,8 +138,14 @@ def _failure(
 def _how_to_read(sheet: SheetPlan) -> None:
     _heads(sheet, "How to read it")
     for style, meaning in (
-        ("input", "Blue on yellow: an input. Change it on the sheet Inputs, and every sheet follows."),
-        ("inferred", "Blue on orange: an input that the report never prints, inferred from others."),
+        (
+            "input",
+            "Blue on yellow: an input. Change it on the sheet Inputs, and every sheet follows.",
+        ),
+        (
+            "inferred",
+            "Blue on orange: an input that the report never prints, inferred from others.",
+        ),
         ("number", "Black: a formula, stored with the value that coldspray computed for it."),
         (
             "printed",
@@ -152,7 +156,9 @@ def _how_to_read(sheet: SheetPlan) -> None:
         sheet.put(A=Cell("1.23", f"{style} sample"), B=Cell(meaning, "text"))
     sheet.put(
         A=Cell("#N/A", "number sample"),
-        B=Cell("Not computed: an input that it depends on cannot be used (Inputs, column E).", "text"),
+        B=Cell(
+            "Not computed: an input that it depends on cannot be used (Inputs, column E).", "text"
+        ),
     )
     sheet.put(
         A=Cell("Protection", "number sample"),

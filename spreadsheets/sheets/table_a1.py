@@ -84,7 +84,9 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         f"Table A-1, rigid body penetration. Columns A to {last} are live, with the inputs of"
         f" {case.name}.{beside}"
     )
-    sheet.say("M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3.")
+    sheet.say(
+        "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3."
+    )
     sheet.cells["A18"] = Cell(f"Back to {HOME}", "link", link=(HOME, "A1"))
     return sheet
 

@@ -15,6 +15,7 @@ from reference.enclosure import enclose
 from reference.equations import MATHML, Node, dimension, evaluate, read_expression, rendered
 from reference.formulas import FUNCTIONS
 from reference.ledger import Claim, load
+from reference.scheme import Scheme
 from reference.units import unit_dimension
 
 LEDGER = load()
@@ -88,7 +89,7 @@ def test_every_computation_is_a_formula_or_a_function_and_computes_something() -
     for name, function in FUNCTIONS.items():
         names = signature(function).parameters
         assert computations[name].by_row == ("row" in names)
-        assert computations[name].by_scheme == ("centered" in names)
+        assert computations[name].by_scheme == ("scheme" in names)
     assert not [own for own in computations.values() if own.summary.endswith(".")]
     used = {own.name for claim in LEDGER.claims.values() for own in claim.computations.values()}
     assert computations.keys() == used
@@ -119,8 +120,8 @@ def test_reals_lie_within_narrow_intervals(claim: Claim) -> None:
     ar = Reals(50)
     point = {name: LEDGER.value(name) for name in claim.entries}
     for reading in claim.computations:
-        for centered in (False, True) if claim.by_scheme else (False,):
-            function = LEDGER.function(claim, reading=reading, centered=centered)
+        for scheme in Scheme if claim.by_scheme else (Scheme.PUBLISHED,):
+            function = LEDGER.function(claim, reading=reading, scheme=scheme)
             real = function(ar, **{name: ar.number(x) for name, x in point.items()})
             value = real if isinstance(real, F) else F(*real.as_integer_ratio())
             low, high = enclose(function, {name: (x, x) for name, x in point.items()}).ends

@@ -13,12 +13,11 @@ from replication.audit.audit import Audit, audit
 from replication.audit.explain import (
     EQUATION_EDITS,
     Explainer,
-    disagreeing,
     edits,
     equation_edits,
 )
 from replication.audit.record import Verdict
-from replication.audit.verdict import Judge, assess_equation, follows
+from replication.audit.verdict import Judge, assess_equation, disagreeing, follows
 from replication.power import Plant, measured, new_failures, plants, power, trial
 
 LEDGER = load()

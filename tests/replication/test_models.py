@@ -16,6 +16,7 @@ from scipy.optimize import brentq
 
 from reference.arithmetic import Reals
 from reference.motion import Trajectory, sheet_rows
+from reference.scheme import Scheme
 from replication.cases import BETA_3, BETA_5, read_case
 from replication.error import hard_cases, ladder, warnings
 from replication.error.ladder import exact_motion
@@ -29,7 +30,7 @@ from replication.models.depth import (
 )
 from replication.models.impact import Impact
 from replication.models.motion import stop_time, time_to_depth
-from replication.models.sheet import SCHEMES, run
+from replication.models.sheet import run
 from spreadsheets.verify import rounding_bound
 
 
@@ -52,16 +53,15 @@ IMPACTS = st.builds(
 ).map(lambda impact: replace(impact, step=impact.radius / impact.velocity / 50))
 
 
-@given(IMPACTS, st.sampled_from(list(SCHEMES)))
+@given(IMPACTS, st.sampled_from(Scheme))
 @settings(max_examples=60, deadline=None)
 def test_the_sheet_differs_from_the_scheme_in_50_digits_by_rounding_only(
-    impact: Impact, scheme: str
+    impact: Impact, scheme: Scheme
 ) -> None:
     reals, sheet = Reals(50), run(impact, scheme)
     inputs = impact.motion | {"step": impact.step, "stop_velocity": impact.stop_velocity}
     numbers = {name: reals.number(Fraction(value)) for name, value in inputs.items()}
-    centered = scheme == "centered"
-    exact = [*sheet_rows(reals, **numbers, centered=centered, most_rows=sheet.steps)]
+    exact = [*sheet_rows(reals, **numbers, scheme=scheme, most_rows=sheet.steps)]
     assert sheet.rows[0] == (0.0, impact.velocity, 0.0, 0.0, None)
     before = impact.velocity
     for k, row in enumerate(sheet.rows[1:], start=1):
@@ -77,9 +77,9 @@ def test_the_sheet_differs_from_the_scheme_in_50_digits_by_rounding_only(
         assert parted <= bound * largest
 
 
-@given(IMPACTS, st.floats(0, 1), st.sampled_from(list(SCHEMES)))
+@given(IMPACTS, st.floats(0, 1), st.sampled_from(Scheme))
 def test_a_sheet_of_the_greatest_number_of_steps_is_not_refused(
-    impact: Impact, stop: float, scheme: str
+    impact: Impact, stop: float, scheme: Scheme
 ) -> None:
     impact = replace(impact, stop_velocity=stop * impact.velocity)
     sheet = run(impact, scheme)
@@ -254,11 +254,11 @@ def test_a_crater_has_the_volume_that_gave_its_depth(ratio: float) -> None:
 # Error budget, convergence and hard cases
 
 
-@pytest.mark.parametrize("scheme", SCHEMES)
+@pytest.mark.parametrize("scheme", Scheme)
 @pytest.mark.parametrize("impact", [BETA_3, BETA_5, replace(BETA_5, velocity=1500.0)])
-def test_the_time_step_part_has_the_order_of_the_scheme(impact: Impact, scheme: str) -> None:
+def test_the_time_step_part_has_the_order_of_the_scheme(impact: Impact, scheme: Scheme) -> None:
     result = ladder.converge(impact, ladder.ladder(1e-10, 7), scheme)
-    assert result["levels"][-1]["time_step_order"] == pytest.approx(SCHEMES[scheme].order, abs=0.02)
+    assert result["levels"][-1]["time_step_order"] == pytest.approx(scheme.order, abs=0.02)
 
 
 def richardson(order: int, ratio: float, assumed: int) -> dict[str, float]:
@@ -282,8 +282,8 @@ test_what_a_ladder_tells = calls(
 
 
 @pytest.mark.parametrize("digits", [1, 2, 3, 4])
-@pytest.mark.parametrize("scheme", SCHEMES)
-def test_the_largest_step_for_digits_is_verified(digits: int, scheme: str) -> None:
+@pytest.mark.parametrize("scheme", Scheme)
+def test_the_largest_step_for_digits_is_verified(digits: int, scheme: Scheme) -> None:
     result = ladder.step_for_digits(BETA_5, digits, scheme)
     rest = float(exact_motion(BETA_5).final_depth)
     allowed = 0.5 * 10.0 ** (-5 - digits)  # the depth is 7.67e-6 m

@@ -11,6 +11,7 @@ from kept import calls
 
 from reference.enclosure import satisfying
 from reference.ledger import Convention, load
+from reference.scheme import Scheme
 from replication.audit import verdict, wording
 from replication.audit.explain import Explainer
 from replication.audit.inference import Inference
@@ -47,13 +48,13 @@ def test_a_witness_prints_like_the_report_and_gives_the_number() -> None:
         }
         settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
         if computation.by_scheme:
-            settings["scheme"] = "centered" if convention.centered else "published"
+            settings["scheme"] = convention.scheme
         value = F(replica(computation.name, inputs, **settings))
         margin = abs(value) * F(1, 10**12)  # rounding may place a double just outside an end
         target = claim.target(convention.rounding)
         assert not target.excludes(value - margin, value + margin), name
         for entry in claim.inferred:
-            inference = JUDGE.inference(entry, centered=convention.centered)
+            inference = JUDGE.inference(entry, scheme=convention.scheme)
             constraints, box = inference.joint(convention, {entry: (witness[entry],) * 2})
             at_witness = {name: (witness.get(name, low), witness.get(name, high))
                           for name, (low, high) in box.items()}  # fmt: skip
@@ -71,12 +72,12 @@ DENSITY = "inferred:target-density"
 
 
 @cache
-def inference(centered: bool = False) -> Inference:
-    return Inference(LEDGER, DENSITY, centered=centered)
+def inference(scheme: Scheme = Scheme.PUBLISHED) -> Inference:
+    return Inference(LEDGER, DENSITY, scheme=scheme)
 
 
 def test_rounded_inputs_widen_the_range_of_densities_that_table_a_1_admits() -> None:
-    for own in (inference(), inference(centered=True)):
+    for own in map(inference, Scheme):
         assert own.odd == ()
         (low, high), (outer_low, outer_high) = own.inner.ends, own.outer.ends
         assert outer_low <= low < high <= outer_high
