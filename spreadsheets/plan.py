@@ -7,7 +7,8 @@ formula. Whoever supplies the values never sees the formulas, so that the two ca
 A quantity has a defined name, and its key is that name: formulas read `=4*rho_p/(3*rho_t)*ln_rest`.
 """
 
-from collections.abc import Callable, Mapping, Sequence
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from string import ascii_uppercase
@@ -249,6 +250,14 @@ class SheetPlan:
         self.heads(self.columns, texts, right=self.columns[2] + self.columns[4])
 
 
+_REFERENCE = re.compile(
+    r"""(?:'(?P<sheet>[^']*)'!)?\$?(?P<column>[A-Z])\$?(?P<first>\d+)(?::[A-Z](?P<last>\d+))?\b
+    |(?P<name>[A-Za-z]\w*)\b(?!\()""",
+    re.VERBOSE,
+)
+"""A cell or a range of one column, or a defined name, in a formula of a plan."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class WorkbookPlan:
     """The sheets in order. Keys are unique, and so are defined names, even if case is ignored."""
@@ -278,3 +287,32 @@ class WorkbookPlan:
             for sheet in self.sheets
             for claim, address in sheet.claims.items()
         }
+
+    def references(self, place: Place) -> Iterator[Place]:
+        """Yield the cells that the formula of a cell refers to: by address, range or name."""
+        own_sheet, text = place[0], re.sub(r'"[^"]*"', "", self.cells[place].formula)
+        for match in _REFERENCE.finditer(text):
+            if match["name"]:
+                yield self.where[match["name"]]
+            else:
+                first = int(match["first"])
+                for row in range(first, int(match["last"] or first) + 1):
+                    yield match["sheet"] or own_sheet, f"{match['column']}{row}"
+
+    @cached_property
+    def readers(self) -> Mapping[Place, Sequence[Place]]:
+        """The cells whose formulas refer to a cell, by its place."""
+        readers: dict[Place, list[Place]] = {}
+        for place, cell in self.cells.items():
+            for reference in self.references(place) if cell.formula else ():
+                readers.setdefault(reference, []).append(place)
+        return readers
+
+    def dependents(self, sources: Collection[Place]) -> set[Place]:
+        """Return these cells, and all whose formulas depend on one of them, however indirectly."""
+        reached, waiting = set(sources), list(sources)
+        while waiting:
+            new = set(self.readers.get(waiting.pop(), ())) - reached
+            reached |= new
+            waiting += new
+        return reached

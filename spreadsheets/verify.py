@@ -3,7 +3,7 @@
 import math
 import re
 import time
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -25,48 +25,14 @@ def repairs_wrong_value(engine: Engine) -> bool:
         return engine.recalculate(path).get("planted", {}).get("A2") == 42
 
 
-_REFERENCE = re.compile(
-    r"""(?:'(?P<sheet>[^']*)'!)?\$?(?P<column>[A-Z])\$?(?P<first>\d+)(?::[A-Z](?P<last>\d+))?\b
-    |(?P<name>[A-Za-z]\w*)\b(?!\()""",
-    re.VERBOSE,
-)
-
-
-def references(plan: WorkbookPlan, place: Place) -> Iterator[Place]:
-    """Yield the cells that the formula of a cell refers to: by address, range or name."""
-    own_sheet, text = place[0], re.sub(r'"[^"]*"', "", plan.cells[place].formula)
-    for match in _REFERENCE.finditer(text):
-        if match["name"]:
-            yield plan.where[match["name"]]
-        else:
-            first = int(match["first"])
-            for row in range(first, int(match["last"] or first) + 1):
-                yield match["sheet"] or own_sheet, f"{match['column']}{row}"
-
-
-def dependents(plan: WorkbookPlan, sources: Collection[Place]) -> set[Place]:
-    """Return these cells, and all whose formulas depend on one of them, however indirectly."""
-    readers: dict[Place, list[Place]] = {}
-    for place, cell in plan.cells.items():
-        for reference in references(plan, place) if cell.formula else ():
-            readers.setdefault(reference, []).append(place)
-    reached, waiting = set(sources), list(sources)
-    while waiting:
-        new = set(readers.get(waiting.pop(), ())) - reached
-        reached |= new
-        waiting += new
-    return reached
-
-
 def inexact(plan: WorkbookPlan) -> set[Place]:
     """Return the cells whose value depends on LN, SIN, ASIN, a cube root or ROUND.
 
     Their last digits depend on the program; all other values are the same double everywhere.
     """
     functions = re.compile(r"LN\(|SIN\(|\^|ROUND\(")
-    return dependents(
-        plan, [at for at, cell in plan.cells.items() if functions.search(cell.formula)]
-    )
+    sources = [place for place, cell in plan.cells.items() if functions.search(cell.formula)]
+    return plan.dependents(sources)
 
 
 OF_FUNCTIONS = 32 * 2.0**-52

@@ -155,7 +155,7 @@ def _how_to_read(sheet: SheetPlan) -> None:
     ):
         sheet.put(A=Cell("1.23", f"{style} sample"), B=Cell(meaning, "text"))
     sheet.put(
-        A=Cell("#N/A", "number sample"),
+        A=Cell("Faint #N/A", "number sample"),
         B=Cell(
             "Not computed: an input that it depends on cannot be used (Inputs, column E).", "text"
         ),
