@@ -254,14 +254,15 @@ def satisfying(
 ) -> tuple[bool | None, dict[str, Fraction] | None]:
     """Return whether some point of the box satisfies every constraint, and such a point.
 
-    The answer is False only where this is proven; it is None if the budget of boxes runs out.
-    Boxes are halved until each is excluded by a constraint. In each box one point is tried, which
-    the linearized constraints suggest. Constraints are tested in their order: it saves time to put
-    cheap and narrow ones first.
+    The answer is False only where this is proven; it is None if the budget of boxes runs out. In
+    each box one point is tried, which the linearized constraints suggest. If that of the whole box
+    does not satisfy them, `bounds` narrows every input: at corners only, as far as derivatives have
+    a proven sign. Boxes that this leaves open are halved until each is excluded by a constraint.
+    Constraints are tested in their order: it saves time to put cheap and narrow ones first.
     """
     queue = deque([(box, list(constraints))])
     sizes = {name: max(map(abs, ends)) or 1 for name, ends in box.items()}
-    for _ in range(budget):
+    for tried in range(budget):
         if not queue:
             break
         part, remaining = queue.popleft()
@@ -271,11 +272,26 @@ def satisfying(
         point = _candidate(undecided, part)
         if _undecided(undecided, _points(point)) == []:
             return True, point
+        if tried == 0:
+            narrowed = _narrowed(undecided, part)
+            queue += [(narrowed, undecided)] if narrowed else []
+            continue
         # Halve the input whose range is widest relative to its largest magnitude in the whole box.
         name = max(part, key=lambda name: (part[name][1] - part[name][0]) / sizes[name])
         (low, high), middle = part[name], _middle(part)[name]
         queue += [({**part, name: half}, undecided) for half in ((low, middle), (middle, high))]
     return (None if queue else False), None
+
+
+def _narrowed(constraints: Sequence[Constraint], box: Box) -> Box | None:
+    """Return the part of a box that the bounds of its inputs leave; None if that is nothing."""
+    for name in [name for name, (low, high) in box.items() if low != high]:
+        low, high = bounds(constraints, name, box)
+        if low > high:
+            return None
+        if low < high:  # a single value may be an open end, which does not belong to the box
+            box = {**box, name: (low, high)}
+    return box
 
 
 def _candidate(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:

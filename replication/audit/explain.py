@@ -12,9 +12,13 @@ from functools import cache, cached_property
 from itertools import pairwise, product
 from string import digits
 
+from msgspec.structs import replace
+
+from reference.derivations import premises_of
 from reference.enclosure import Solutions, enclose, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.printed import parse
+from reference.slips import SLIPS
 from reference.units import to_si
 from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, SlipRecord
 from replication.audit.verdict import Judge, Values, agrees, disagreeing, follows
@@ -134,8 +138,7 @@ class Explainer:
         """Return what may be misprinted: it, its inputs, its equations and their constants."""
         ledger = self.ledger
         if name in ledger.equations:
-            premises = ledger.equations[name].premises.values()
-            suspects = equations = {name, *(premise.equation for premise in premises)}
+            suspects = equations = {name, *premises_of(name)}
         else:
             claim = ledger.claims[name]
             equations = set(claim.uses)
@@ -214,18 +217,14 @@ class Explainer:
     # Slips
 
     def slips(self, claim: Claim) -> list[SlipRecord]:
-        """Return what each slip of the author's that the ledger lists would give for a claim."""
+        """Return what each slip that the author may have made would give for a claim."""
         target, rounded, records = claim.target(), Convention(choices_exact=False), []
-        for slip in (slip for slip in self.ledger.slip if slip.equation in claim.uses):
-            ledger = self.ledger
-            if slip.text is not None:
-                ledger = ledger.misprint(slip.equation, slip.text)
-            inputs = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
-            changed = claim.resting_on(**inputs)
-            function = ledger.function(changed)
+        for slip in (slip for slip in SLIPS if slip.equation in claim.uses):
+            changed = replace(claim.resting_on(**slip.inputs), computations={"": slip.computation})
+            function = self.ledger.function(changed)
             value, fits = None, ""
             with suppress(ArithmeticError):  # misprinted inputs may give no finite value
-                at_print = enclose(function, self.judge.printed(changed)).ends
+                at_print = enclose(function, self.judge.as_printed(changed)).ends
                 value, fits = float(at_print[0] / claim.si), "not excluded within rounding"
                 if target.encloses(*at_print):
                     fits = "as printed"

@@ -51,6 +51,7 @@ class Inference:
         self.ledger, self.name, self.scheme, self.rounding = ledger, name, scheme, rounding
         self.entry = ledger.inferred[name.removeprefix(INFERRED)]
         self.rounded, self.admitted = cache(self._rounded), cache(self._admitted)
+        self.admits = cache(self._admits)
         self.by_claim: dict[str, Solutions] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
@@ -138,7 +139,7 @@ class Inference:
 
         return by_mass
 
-    def admits(self, value: Fraction, range_: Interval) -> Admission:
+    def _admits(self, value: Fraction, range_: Interval) -> Admission:
         """Return whether the evidence admits a source's value, or the range that prints like it."""
         if self.inner.contains(value):
             return Admission.ADMITTED
@@ -148,7 +149,12 @@ class Inference:
             (Admission.HEADER_ROUNDED, Convention()),
             (Admission.CHOICES_ROUNDED, Convention(choices_exact=False)),
         ):
-            admitted, _ = satisfying(*self.joint(convention, {self.name: range_.ends}))
+            (low, high), (least, greatest) = range_.ends, self.admitted(convention).ends
+            if high < least or greatest < low:
+                continue
+            # The bounds hold for each piece of evidence by itself, and may admit too much.
+            within = max(low, least), min(high, greatest)
+            admitted, _ = satisfying(*self.joint(convention, {self.name: within}))
             if admitted is not False:
                 return admission if admitted else Admission.UNDECIDED
         return Admission.EXCLUDED
