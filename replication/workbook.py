@@ -197,8 +197,8 @@ def _case_sheet(slug: str, impact: Impact, scheme: Scheme) -> CaseSheet:
 
 
 # The values, sheet by sheet. They are trees: the names of its branches, joined by dots, are the key
-# of a value. A list is a column of cells, and None stands for no cell. The keys of quantities, which
-# are the defined names of their cells, have no dots.
+# of a value. A list is a column of cells, and None stands for no cell. The key of a quantity, which
+# is the defined name of its cell, has no dots.
 
 Tree = dict[str, Any]
 Runs = Sequence[tuple[CaseSheet, Sheet]]

@@ -10,7 +10,7 @@ from re import findall
 
 from reference.ledger import Ledger, load
 from reference.scheme import Scheme
-from spreadsheets.plan import Cell, Place, Rule, SheetPlan, WorkbookPlan
+from spreadsheets.plan import Rule, SheetPlan, WorkbookPlan
 from spreadsheets.sheets.audit import AuditResult, audit_sheet
 from spreadsheets.sheets.case import CaseSheet, case_sheet
 from spreadsheets.sheets.convergence import convergence
@@ -69,7 +69,7 @@ def _properties(ledger: Ledger) -> dict[str, str]:
     }
 
 
-def report_cases(ledger: Ledger) -> list[CaseSheet]:
+def report_cases() -> list[CaseSheet]:
     """Return the sheets of the report's two cases, without rows."""
     return [
         CaseSheet(
@@ -88,7 +88,7 @@ def cells_of_claims() -> Mapping[str, str]:
     'Frank-Zook!C8'
     """
     ledger = load()
-    cases = report_cases(ledger)
+    cases = report_cases()
     sheets = (
         inputs_sheet(ledger, cases, report=True),
         table_a1(ledger, cases[-1], report=True),

@@ -12,8 +12,8 @@ def crater(ledger: Ledger) -> SheetPlan:
         name="Crater",
         about="Section 2: crater volume, depth and contact diameter; particle velocities",
         title="Crater and particle",
-        note="A crater of depth X ≤ R is a cap of the sphere: CV/PV = y² (3 - y)/4 with y = X/R. Its"
-        " root is y = 4 sin(h) sin(h + π/3) with h = asin(√(CV/PV))/3.",
+        note="A crater of depth X ≤ R is a cap of the sphere: CV/PV = y² (3 - y)/4 with y = X/R."
+        " Its root is y = 4 sin(h) sin(h + π/3) with h = asin(√(CV/PV))/3.",
     )
     sheet.block("Particle")
     sheet.line(

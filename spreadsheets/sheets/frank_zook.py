@@ -13,8 +13,8 @@ def frank_zook(ledger: Ledger) -> SheetPlan:
         name="Frank-Zook",
         about="Eq. 16 as printed and as derived (Eqs. 14 to 17)",
         title="Frank-Zook depth of a noneroding penetrator",
-        note="Eqs. 14 and 15, integrated from V to rest, give the right side of Eq. 16 for the depth"
-        " in diameters, X/D. Eq. 16 prints X/R in front of it. Both readings stand here: the"
+        note="Eqs. 14 and 15, integrated from V to rest, give the right side of Eq. 16 for the"
+        " depth in diameters, X/D. Eq. 16 prints X/R in front of it. Both readings stand here: the"
         " derived one is twice the printed one.",
     )
     sheet.block("The cylinder of the sphere’s mass and diameter")

@@ -456,8 +456,8 @@ def test_charts_have_titles_with_units_and_numbers_to_draw(published: Workbook, 
         (
             "Figure 3",
             "Line chart: depth x in µm against time in ns, one curve for each case, the first solid"
-            " and the second dashed. As written, β = 3 reaches 10.03 µm after 35.6 ns, β = 5 reaches"
-            " 7.67 µm after 26.2 ns.",
+            " and the second dashed. As written, β = 3 reaches 10.03 µm after 35.6 ns, β = 5"
+            " reaches 7.67 µm after 26.2 ns.",
         ),
         (
             "Figure 5",

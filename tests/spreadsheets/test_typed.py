@@ -283,6 +283,6 @@ def test_each_input_and_each_kind(emitted: Any, tmp_path: Path, kind: str) -> No
 
 @pytest.mark.slow
 def test_each_input_in_every_program(engine: Engine, emitted: Any, tmp_path: Path) -> None:
-    """The kinds in turn, as seven does not divide the number of inputs."""
+    """One or two of the seven kinds for each input."""
     cases = alone(names_of_inputs(emitted), list(UNUSABLE_INPUTS))
     check_each(engine, emitted, cases[::6], tmp_path)
