@@ -210,8 +210,8 @@ def _set_up(page: Any, sheet: SheetPlan, unlocked: Any) -> None:
     if sheet.filtered:
         page.autofilter(sheet.filtered)
     # Excel would mark printed numbers, which are texts, and formulas that differ by design from
-    # their neighbors.
-    kinds = ("number_stored_as_text", "formula_differs", "formula_range")
+    # their neighbors, and cells that are not computed.
+    kinds = ("number_stored_as_text", "formula_differs", "formula_range", "eval_error")
     page.ignore_errors(dict.fromkeys(kinds, "A1:XFD1048576"))
 
 
