@@ -184,8 +184,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     sheet.begin("Inputs")
     sheet.say(
         "Type into the yellow cells, in the unit beside them; every sheet follows. On orange: an"
-        " input that the report never prints, inferred from Table A-1. An input that cannot be"
-        " used is #N/A in column F, and so is all that hangs on it."
+        " input that the report never prints, inferred from Table A-1."
     )
     sheet.row = 9
     sheet.table(_HEADS, right="CFHIKL", scrolling="C")
