@@ -25,6 +25,10 @@ class Slip:
     inputs: Mapping[str, str] = field(default_factory=dict)
     equation: str = "eq16"
 
+    def __reduce__(self) -> tuple[Callable[[str], "Slip"], tuple[str]]:
+        """Pickle by name, as functions are."""
+        return named, (self.name,)
+
 
 class Case(NamedTuple):
     """The inputs of Eq. 16, by its symbols; `L_D` is L/D."""
@@ -196,3 +200,8 @@ SLIPS = (
     ),
 )
 """The slips, in the order in which the audit lists them."""
+
+
+def named(name: str) -> Slip:
+    """Return the slip of this name."""
+    return {slip.name: slip for slip in SLIPS}[name]

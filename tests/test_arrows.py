@@ -29,8 +29,7 @@ FLOORS: tuple[set[str], ...] = (
 
 ONLY = {
     "spreadsheets": {"reference"},
-    # The record of a claim names the cell of the workbook that computes it.
-    "audit": {"reference", "models", "text", "spreadsheets"},
+    "audit": {"reference", "models", "text"},
     "": {"audit", "cases", "models"},  # the homes of the public names of `replication`
 }
 """Packages that may import fewer than all lower floors, and which."""

@@ -20,7 +20,7 @@ from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.printed import parse
 from reference.slips import SLIPS
 from reference.units import to_si
-from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, SlipRecord
+from replication.audit.record import BackSolved, Proof, Repair, TriedSlip
 from replication.audit.verdict import Judge, Values, agrees, disagreeing, follows
 
 
@@ -60,7 +60,7 @@ class Explainer:
 
     # Single inputs
 
-    def back_solved(self, claim: Claim) -> list[BackSolvedRecord]:
+    def back_solved(self, claim: Claim) -> list[BackSolved]:
         """Return, for every reading and input, the values of this input that give the number."""
         ledger, records = self.ledger, []
         for reading, name in product(claim.computations, claim.entries):
@@ -74,12 +74,12 @@ class Explainer:
             si, spans = to_si(unit), (solutions.search, *solutions.inner)
             search, *intervals = [(float(low / si), float(high / si)) for low, high in spans]
             records.append(
-                BackSolvedRecord(
+                BackSolved(
                     reading=reading,
                     entry=name,
                     title=ledger.title(name),
                     unit=unit,
-                    printed=float(self.judge.value(name) / si),
+                    as_printed=float(self.judge.value(name) / si),
                     intervals=intervals,
                     search=search,
                     search_reason=ledger.search(name)[2],
@@ -98,7 +98,7 @@ class Explainer:
 
     # Misprints
 
-    def repairs(self, name: str) -> list[RepairRecord]:
+    def repairs(self, name: str) -> list[Repair]:
         """Return the one-edit corrections that make a claim or an equation agree, likeliest first.
 
         The fewer claims fail with a repair, the likelier it is; among equals, the likelier typing
@@ -107,7 +107,7 @@ class Explainer:
         name = self.ledger.equation_of(name) or name
         return self._repairs(name, self._suspects(name))
 
-    def _repairs(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
+    def _repairs(self, name: str, entries: Iterable[str]) -> list[Repair]:
         """Return the edits of these entries that make a claim agree, likeliest first."""
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
         repairs = [repair for entry in entries for repair in self._repairs_by(name, entry)]
@@ -116,17 +116,17 @@ class Explainer:
         ))  # fmt: skip
         return repairs[:_SHOWN]
 
-    def _edited(self, name: str, entry: str) -> list[RepairRecord]:
+    def _edited(self, name: str, entry: str) -> list[Repair]:
         repairs = []
         for text, kind in edits_of(self.ledger, entry):
             changed = self.ledger.misprint(entry, text)
             if (reading := self._agreeing(name, entry, changed)) is not None:
                 repairs.append(
-                    RepairRecord(
+                    Repair(
                         entry=entry,
                         title=self.ledger.title(entry),
                         reading=reading,
-                        printed=self.ledger.printed_text(entry),
+                        original=self.ledger.printed_text(entry),
                         text=text,
                         kind=kind,
                         failing=sorted(self._failing(entry, changed)),
@@ -186,7 +186,7 @@ class Explainer:
 
     # One misprint behind several failures
 
-    def ranked(self, names: Collection[str]) -> list[RepairRecord]:
+    def ranked(self, names: Collection[str]) -> list[Repair]:
         """Return the repairs that may explain several failures at once, likeliest first.
 
         A misprint behind all of them is in an entry that all depend on, so only such entries are
@@ -209,14 +209,14 @@ class Explainer:
             return 2 if self.ledger.equation_of(name) else 0, name
         return 1 + 2 * claim.by_scheme + claim.by_whole_sheet, name
 
-    def culprit(self, names: Collection[str]) -> RepairRecord | None:
+    def culprit(self, names: Collection[str]) -> Repair | None:
         """Return the one repair with which nothing fails, if several claims fail now."""
         repairs = self.ranked(names) if len(names) > 1 else []
         return repairs[0] if repairs and not repairs[0].failing else None
 
     # Slips
 
-    def slips(self, claim: Claim) -> list[SlipRecord]:
+    def slips(self, claim: Claim) -> list[TriedSlip]:
         """Return what each slip that the author may have made would give for a claim."""
         target, rounded, records = claim.target(), Convention(choices_exact=False), []
         for slip in (slip for slip in SLIPS if slip.equation in claim.uses):
@@ -224,13 +224,14 @@ class Explainer:
             function = self.ledger.function(changed)
             value, fits = None, ""
             with suppress(ArithmeticError):  # misprinted inputs may give no finite value
-                at_print = enclose(function, self.judge.as_printed(changed)).ends
+                at_print = enclose(function, self.judge.inputs_as_printed(changed)).ends
                 value, fits = float(at_print[0] / claim.si), "not excluded within rounding"
                 if target.encloses(*at_print):
                     fits = "as printed"
-                elif target.excludes(*enclose(function, self.judge.box(changed, rounded)).ends):
-                    fits = ""
-            records.append(SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits))
+                else:
+                    within = enclose(function, self.judge.inputs_as_rounded(changed, rounded)).ends
+                    fits = "" if target.excludes(*within) else fits
+            records.append(TriedSlip(slip, value, fits))
         return records
 
 

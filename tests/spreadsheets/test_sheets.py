@@ -13,6 +13,7 @@ from reference.ledger import Ledger, load
 from reference.units import written
 from replication.audit.record import Record
 from replication.cases import BETA_5
+from replication.report.document import claim_document
 from replication.workbook import Workbook
 from spreadsheets.plan import Cell, SheetPlan
 from spreadsheets.sheets import cells_of_claims
@@ -253,12 +254,15 @@ def test_each_cell_of_a_claim_computes_it(published: Workbook, record: Record) -
             assert value == pytest.approx(judged.computed, rel=1e-9, abs=0), name
 
 
-def test_a_claim_has_one_cell_and_the_audit_knows_it(published: Workbook, record: Record) -> None:
+def test_a_claim_has_one_cell_and_the_audits_file_names_it(
+    published: Workbook, record: Record
+) -> None:
     own = list(chain.from_iterable(page.claims for page in published.plan.sheets))
     assert max(Counter(own).values()) == 1
     cells = {name: f"{page}!{address}" for name, (page, address) in published.plan.claims.items()}
     assert cells == dict(cells_of_claims())
-    assert {claim.id: claim.workbook for claim in record.claims if claim.workbook} == cells
+    documents = [claim_document(claim) for claim in record.claims]
+    assert {d["id"]: d["workbook"] for d in documents if d["workbook"]} == cells
     links = {cell.text for (page, at), cell in published.plan.cells.items() if page == "Audit"}
     assert set(cells.values()) <= links
 
