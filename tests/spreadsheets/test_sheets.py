@@ -335,7 +335,7 @@ def test_the_front_sheet_tells_what_holds_and_links_to_it(
     assert record.headline in words
     for claim in record.claims:
         if claim.verdict in ("not reproduced", "inconsistent"):
-            assert claim.title in words
+            assert claim.claim.title in words
             assert claim.explanation.split(".")[0] in words
     links = {cell.text: address for address, cell in front.cells.items() if cell.link}
     for verdict, count in record.summary.items():
