@@ -457,7 +457,7 @@ def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
     volume_um3 = volume * 1e6 * 1e6 * 1e6
     contact = crater.contact_diameter(third, si["D_mean"])
     values: Tree = {
-        "PV": volume,
+        "PV_m3": volume,
         "PV_um3": volume_um3,
         "CV_line_um3": si["CV_PV_line"] * volume_um3,
         "y_contact": third,

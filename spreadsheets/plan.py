@@ -217,29 +217,37 @@ class SheetPlan:
     def line(
         self, name: str, symbol: str, meaning: str, expression: str, unit: str = "1", *,
         claim: str = "", also: Sequence[str] = (), beside: str = "", source: str = "",
-        shown: str = "0.0000", like: str = "", key: str = "",
+        shown: str = "0.0000", like: str = "",
     ) -> None:  # fmt: skip
         """Add a line for one quantity, computed by a formula in the cell that gets this name.
 
         claim: the claim that the cell computes; its printed text stands beside it, and its place in
         the report if no other `source` is given. also: other claims that the cell computes. beside:
-        the claim whose printed text stands beside the cell though another cell computes it. key:
-        that of a cell without a name, which only repeats another one.
+        the claim whose printed text stands beside the cell though another cell computes it.
         """
-        value = formula(
-            name or key, expression, named=bool(name), unit=unit, shown=shown, like=like
-        )
-        shown_claim = claim or beside
-        if shown_claim and not source:
-            source = str(self.ledger.claims[shown_claim].place)
-        address = f"{self.columns[2]}{self.row}"
-        self.claims |= dict.fromkeys([claim, *also] if claim else also, address)
+        computed = [claim, *also] if claim else also
+        self.claims |= dict.fromkeys(computed, f"{self.columns[2]}{self.row}")
+        value = formula(name, expression, named=True, unit=unit, shown=shown, like=like)
+        self._line(symbol, meaning, value, claim or beside, source)
+
+    def repeat(
+        self, key: str, symbol: str, meaning: str, name: str, unit: str = "1", *,
+        beside: str = "", source: str = "", shown: str = "0.0000",
+    ) -> None:  # fmt: skip
+        """Add a line that repeats the quantity with this name, in a cell without a name."""
+        value = formula(key, f"={name}", unit=unit, shown=shown)
+        self._line(symbol, meaning, value, beside, source)
+
+    def _line(self, symbol: str, meaning: str, value: Cell, claim: str, source: str) -> None:
+        """Add a line; `claim` is the one whose printed text stands beside the value."""
+        if claim and not source:
+            source = str(self.ledger.claims[claim].place)
         cells = (
             symbol and Cell(symbol, "text"),
             meaning and Cell(meaning),
             value,
-            unit_text(unit),
-            shown_claim and printed(self.ledger, shown_claim, unit),
+            unit_text(value.unit),
+            claim and printed(self.ledger, claim, value.unit),
             source and Cell(source, "unit"),
         )
         self.put(**dict(zip(self.columns, cells, strict=True)))

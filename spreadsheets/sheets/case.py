@@ -4,11 +4,13 @@ Rows below the stop stay blank until changed inputs need them. The sheet says so
 few rows, or if the time step is too long for the motion.
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from reference.ledger import Ledger
 from reference.scheme import Scheme
-from spreadsheets.plan import Cell, Rule, SheetPlan, formula
+from spreadsheets.plan import Rule, SheetPlan, formula
 from spreadsheets.sheets import messages
 from spreadsheets.sheets.formulas import cap_angle, depth, log1p
 
@@ -140,23 +142,27 @@ def if_in_use(row: int, expression: str) -> str:
     return f'=IF(ISNUMBER(A{row}),{expression},"")'
 
 
-HEADS = {
-    "A": "Row", "B": "Time", "C": "dx/dt initial", "D": "x", "E": "d²x/dt²", "F": "dx/dt final",
-    "G": "x", "H": "dx/dt middle",
-}  # fmt: skip
-ROW_KEYS = {
-    "A": "index", "B": "time", "C": "velocity_initial", "D": "depth", "E": "deceleration",
-    "F": "velocity_final", "G": "depth_um", "H": "velocity_middle",
-}  # fmt: skip
-_UNITS = {"B": "s", "C": "m/s", "D": "m", "E": "m/s^2", "F": "m/s", "G": "um", "H": "m/s"}
-_SHOWN = {
-    "B": "0.00E+00", "C": "0.000", "D": "0.0000E+00", "E": "0.0000E+00", "F": "0.000",
-    "G": "0.0000", "H": "0.000",
-}  # fmt: skip
-_LIKE = {
-    "C": "velocity", "D": "depth", "E": "deceleration", "F": "velocity", "G": "depth_um",
-    "H": "velocity",
-}  # fmt: skip
+class Column(NamedTuple):
+    """A column of the rows: its head, the end of its keys, unit, number format and `Cell.like`."""
+
+    head: str
+    key: str
+    unit: str = ""
+    shown: str = "General"
+    like: str = ""
+
+
+COLUMNS: Mapping[str, Column] = {
+    "A": Column("Row", "index"),
+    "B": Column("Time", "time", "s", "0.00E+00"),
+    "C": Column("dx/dt initial", "velocity_initial", "m/s", "0.000", "velocity"),
+    "D": Column("x", "depth", "m", "0.0000E+00", "depth"),
+    "E": Column("d²x/dt²", "deceleration", "m/s^2", "0.0000E+00", "deceleration"),
+    "F": Column("dx/dt final", "velocity_final", "m/s", "0.000", "velocity"),
+    "G": Column("x", "depth_um", "um", "0.0000", "depth_um"),
+    "H": Column("dx/dt middle", "velocity_middle", "m/s", "0.000", "velocity"),
+}
+"""The columns of the rows, by letter; H is that of the centered scheme only."""
 
 
 def _impact_formulas(case: CaseSheet) -> dict[str, str]:
@@ -182,23 +188,22 @@ def _row_formulas(case: CaseSheet, step: int) -> dict[str, str]:
 
 def _rows(sheet: SheetPlan, case: CaseSheet) -> str:
     """Add the rows of the scheme, and return the last of their columns."""
-    columns = "ABCDEFGH" if case.scheme is Scheme.CENTERED else "ABCDEFG"
+    letters = "ABCDEFGH" if case.scheme is Scheme.CENTERED else "ABCDEFG"
     rows = [_row_formulas(case, step) for step in range(case.rows + 1)]
-    for column in columns:
-        cells: list[Cell | None] = []
-        for step, formulas in enumerate(rows):
-            # Row 0 has zeros, which are shown as such.
-            general = step == 0 and column not in "CH"
-            cells.append(
-                formula(
-                    f"{case.part}.row.{ROW_KEYS[column]}[{step}]", formulas[column],
-                    shown="General" if general else _SHOWN.get(column, "General"),
-                    unit=_UNITS.get(column, "1"),
-                    like=f"{case.part}.{_LIKE[column]}" if column in _LIKE else "",
-                ) if column in formulas else None
-            )  # fmt: skip
-        sheet.column(column, HEADS[column], _UNITS.get(column, ""), cells)
-    return columns[-1]
+    for letter in letters:
+        column = COLUMNS[letter]
+        cells = [
+            formula(
+                f"{case.part}.row.{column.key}[{step}]", formulas[letter],
+                # The zeros of row 0 are shown as such.
+                shown="General" if step == 0 and letter != "C" else column.shown,
+                unit=column.unit or "1",
+                like=f"{case.part}.{column.like}" if column.like else "",
+            ) if letter in formulas else None
+            for step, formulas in enumerate(rows)
+        ]  # fmt: skip
+        sheet.column(letter, column.head, column.unit, cells)
+    return letters[-1]
 
 
 # What stands beside the rows
@@ -300,7 +305,7 @@ def _inputs(sheet: SheetPlan, case: CaseSheet) -> None:
         ("stop_velocity", "v_stop", "stop velocity", "v_stop", "m/s"),
     ):
         key = f"{case.part}.{key}"
-        sheet.line("", symbol, meaning, f"={name}", unit, key=key, shown="0.0000E+00")
+        sheet.repeat(key, symbol, meaning, name, unit, shown="0.0000E+00")
 
 
 def _results(sheet: SheetPlan, case: CaseSheet) -> None:
@@ -311,7 +316,7 @@ def _results(sheet: SheetPlan, case: CaseSheet) -> None:
     ratio_claim = f"ratio-beta-{case.beta}" if report else ""
     again = [f"discussion-ratio-beta-{case.beta}"] if report else []
     from_appendix = "" if report else "Appendix"
-    # The last row is that of a steady stop: where there are none, all that follows is #N/A.
+    # Without any row, or without a stop, all that follows is #N/A.
     sheet.row += 1
     sheet.block("Result of the sheet")
     sheet.line(

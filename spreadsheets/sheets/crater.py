@@ -17,11 +17,11 @@ def crater(ledger: Ledger) -> SheetPlan:
     )
     sheet.block("Particle")
     sheet.line(
-        "PV", "PV", "volume of the mean particle", "=4/3*pi_*(D_mean/2)*(D_mean/2)*(D_mean/2)",
+        "PV_m3", "PV", "volume of the mean particle", "=4/3*pi_*(D_mean/2)*(D_mean/2)*(D_mean/2)",
         "m^3", source="Eq. 3", shown="0.000E+00",
     )  # fmt: skip
     sheet.line(
-        "PV_um3", "PV", "the same", "=PV*1000000*1000000*1000000", "um^3",
+        "PV_um3", "PV", "the same", "=PV_m3*1000000*1000000*1000000", "um^3",
         claim="particle-volume", shown="0.00",
     )  # fmt: skip
     _observed(sheet)
@@ -66,7 +66,7 @@ def _observed(sheet: SheetPlan) -> None:
         shown="0.00",
     )  # fmt: skip
     sheet.line(
-        "CV_PV_again", "CV/PV", "back again through Eq. 2", "=CV_crater/PV",
+        "CV_PV_again", "CV/PV", "back again through Eq. 2", "=CV_crater/PV_m3",
         beside="volume-ratio", source="Eqs. 2 and 3",
     )  # fmt: skip
 
@@ -104,7 +104,7 @@ def _line_of_figure_1(sheet: SheetPlan) -> None:
         shown="0.00",
     )  # fmt: skip
     sheet.line(
-        "CV_PV_line_again", "CV/PV", "back again through Eq. 2", "=CV_line/PV",
+        "CV_PV_line_again", "CV/PV", "back again through Eq. 2", "=CV_line/PV_m3",
         beside="volume-ratio-line", source="Eqs. 2 and 3",
     )  # fmt: skip
 

@@ -25,8 +25,8 @@ def frank_zook(ledger: Ledger) -> SheetPlan:
     )  # fmt: skip
     sheet.row += 1
     sheet.block("Rolled homogeneous armor (Eq. 17)")
-    sheet.line(
-        "", "R_t", "target resistance", "=R_t_RHA", "Pa", key="frank_zook.R_t_RHA",
+    sheet.repeat(
+        "frank_zook.R_t_RHA", "R_t", "target resistance", "R_t_RHA", "Pa",
         beside="fz-resistance-rha", shown="0.00E+00",
     )  # fmt: skip
     sheet.line(
@@ -48,8 +48,8 @@ def frank_zook(ledger: Ledger) -> SheetPlan:
     )  # fmt: skip
     sheet.row += 1
     sheet.block("Stainless steel")
-    sheet.line(
-        "", "R_t", "target resistance", "=R_t_lower", "Pa", key="frank_zook.R_t_lower",
+    sheet.repeat(
+        "frank_zook.R_t_lower", "R_t", "target resistance", "R_t_lower", "Pa",
         beside="fz-resistance-stainless", shown="0.00E+00",
     )  # fmt: skip
     sheet.line(

@@ -83,9 +83,9 @@ def _stress(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> None:
     sheet.block("Target resistance and centerline stress at impact")
     for case in cases:
         s = case.input_suffix
-        sheet.line(
-            "", "R_t", f"target resistance, {case.name}", f"=R_t{s}", "Pa",
-            key=f"resistance.R_t{s}", source="Eq. 7; Inputs", shown="0.000E+00",
+        sheet.repeat(
+            f"resistance.R_t{s}", "R_t", f"target resistance, {case.name}", f"R_t{s}", "Pa",
+            source="Eq. 7; Inputs", shown="0.000E+00",
         )  # fmt: skip
         sheet.line(
             f"stress{s}", "Σ", f"centerline stress, {case.name}",

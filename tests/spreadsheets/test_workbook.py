@@ -165,7 +165,7 @@ def test_bound_is_far_above_what_gnumeric_shows_and_catches_a_planted_error(emit
         ("final_velocity_high", 500.0),
         ("depth_um_high", 7.67),
         ("overview.low.depth_um", 10.03),
-        ("PV", 5.6e-15),
+        ("PV_m3", 5.6e-15),
         ("M_p", 5e-11),
     ):
         sheet, at = book.plan.where[key]
