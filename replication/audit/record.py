@@ -159,11 +159,6 @@ class ClaimRecord(_Part, frozen=True):
         """Under which conventions the verdict holds; empty if nothing is computed."""
         return next(iter(self.scopes), "")
 
-    def __repr__(self) -> str:
-        """A line; `msgspec.structs.asdict` has all fields."""
-        printed = with_unit(self.claim.text, self.claim.unit)
-        return f"<claim {self.id}: {printed}, {self.verdict}>"
-
     @property
     def restated(self) -> str | None:
         """The id of the claim whose number this one repeats; None for any other claim."""

@@ -22,6 +22,7 @@ from reference.enclosure import Ends
 from reference.ledger import Convention
 from replication.audit.assessment import Comparison, Judgement, Reading
 from replication.audit.record import ClaimRecord, EquationRecord, InferredRecord, Record, TriedSlip
+from spreadsheets.sheets import cells_of_claims
 
 Document = dict[str, Any]
 """A JSON object."""
@@ -105,7 +106,7 @@ def claim_document(record: ClaimRecord) -> Document:
         "back_solved": to_builtins(record.back_solved),
         "repairs": to_builtins(record.repairs),
         "slips": [slip_document(tried) for tried in record.slips],
-        "workbook": claim.workbook,
+        "workbook": cells_of_claims().get(claim.id),
     }
 
 
