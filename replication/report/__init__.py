@@ -112,7 +112,7 @@ FINDINGS = 3
 
 
 def summary(record: Record, width: int, strong: bool = False) -> str:
-    """Write the audit on one screen: headline, counts, what fails, main results, findings."""
+    """Write the audit on one screen: counts, what fails, main results, findings, the headline."""
     main = [
         (c.claim.title, words.with_unit(c.claim), words.measured(c.computed, c.claim.unit),
          c.verdict)
