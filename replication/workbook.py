@@ -20,7 +20,7 @@ from reference.units import to_si
 from replication.audit.assessment import Verdict
 from replication.audit.record import Record
 from replication.cases import BETA_3, BETA_5
-from replication.error import COARSE, DIGITS, OFF_STOP, too_long
+from replication.error import COARSE, DIGITS, NOTES, OFF_STOP, too_long
 from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, estimates
@@ -114,7 +114,8 @@ def build(
         f"{page.name}: {doubt}"
         for page, sheet in runs
         if not page.coarse
-        for doubt in doubts_about(sheet).values()
+        for kind, doubt in doubts_about(sheet).items()
+        if kind not in NOTES
     ]
     bounds = [
         rounding_bound(s.steps, s.impact.velocity, s.rows[-1].time, s.final_depth) for s in computed
