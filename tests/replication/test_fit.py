@@ -111,7 +111,7 @@ def test_data_that_no_resistance_fits_have_a_best_one_all_the_same() -> None:
         (BETA_5, [Measurement(500.0, *CASE, 1e-6)], "velocity",
          "cannot fit 'velocity': choose one of resistance, beta, flow_stress"),
         (RIGID, [Measurement(500.0, *CASE, 1e-6)], "beta",
-         "to fit beta, a case with flow_stress is needed: give it"),
+         "the beta is the resistance over the flow stress: give the flow stress"),
         (BETA_5, [Measurement(500.0, *CASE, 1e-6, 1e-8), Measurement(500.0, *CASE, 1e-6)],
          "resistance", "some measurements have an uncertainty and others not: give all or none"),
         (BETA_5, [Measurement(500.0, *CASE, 1.0, line=7)], "resistance",
