@@ -216,4 +216,5 @@ def _single(measurement: Measurement) -> float:
         return float(arrays.resistance_for_depth(measurement.depth, *measurement.impact))
     except InputError as error:
         where = f"line {measurement.line}: " if measurement.line else ""
-        raise ValueError(f"{where}{error}") from error
+        radii = f"{measurement.depth / measurement.radius:.3g} times the radius"
+        raise ValueError(f"{where}the depth is {radii}: {error}") from error

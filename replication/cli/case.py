@@ -112,10 +112,11 @@ def doubts(impact: Impact, given: Collection[str] = ()) -> list[str]:
     return warnings
 
 
-def doubt(name: str, value: float, named: str) -> list[str]:
+def doubt(name: str, value: float, named: str, *, typed: bool = True) -> list[str]:
     """Return a warning if no impact has this value of an input, or else none.
 
-    `named` is what the warning calls it: an option, or a cell of a file.
+    `named` is what the warning calls it: an option, or a cell of a file. typed: somebody wrote the
+    value, and may have left out its unit.
 
     >>> doubt("velocity", 5e5, "line 3: velocity")
     ['line 3: velocity is 500000 m/s: from 0.001 to 100000 m/s is expected']
@@ -126,7 +127,7 @@ def doubt(name: str, value: float, named: str) -> list[str]:
     said = with_unit(number(value, 12), unit)
     range_ = with_unit(f"{number(least)} to {number(greatest)}", unit)
     meant = f"{number(value, 12)} {usual}"
-    advised = usual != unit and least <= read_number(meant, unit) <= greatest
+    advised = typed and usual != unit and least <= read_number(meant, unit) <= greatest
     question = f'; did you mean "{meant}"?' if advised else ""
     return [f"{named} is {said}: from {range_} is expected{question}"]
 
@@ -188,14 +189,14 @@ def shown_in(name: str) -> str:
     return {"radius": "um", "resistance": "GPa", "flow_stress": "MPa"}.get(name, INPUTS[name])
 
 
-def shown(name: str, value: float) -> str:
-    """Return a value (SI) of an input as it is read, and with all digits.
+def shown(name: str, value: float, digits: int = 8) -> str:
+    """Return a value (SI) of an input to some digits as it is read, and with all digits.
 
     >>> shown("resistance", 3.5e9), shown("beta", 5.0)
     ('3.5 GPa (3500000000.0 Pa)', '5 (5.0)')
     """
     unit = shown_in(name)
-    short = with_unit(number(Fraction(value) / to_si(unit), 8), unit)
+    short = with_unit(number(Fraction(value) / to_si(unit), digits), unit)
     return f"{short} ({with_unit(repr(value), INPUTS[name])})"
 
 

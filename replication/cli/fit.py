@@ -2,6 +2,7 @@
 
 import argparse
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 from replication.cli.case import (
@@ -53,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
     measurements = read_measurements(options.file, case)
     with place(str(options.file)):
         fitted = fit(case, measurements, quantity)
-    warnings = list(dict.fromkeys([*warnings, *_doubts(measurements)]))
+    warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))
     inputs = _common_inputs(measurements)
     if other := OTHER_FACTOR[quantity]:
         inputs[other] = fitted.resistance / fitted.value
@@ -82,16 +83,17 @@ def _common_inputs(measurements: Sequence[Measurement]) -> dict[str, float]:
     return {name: values[name].pop() for name in values if len(values[name]) == 1}
 
 
-def _doubts(measurements: Sequence[Measurement]) -> list[str]:
-    """Return a warning for the first value of each input that no impact has, with its line."""
+def _doubts(fitted: Fit, measurements: Sequence[Measurement], file: Path) -> list[str]:
+    """Return a warning for the first value of each input that no impact has, and of the result."""
     warnings = []
     for name in ("velocity", "radius", "particle_density", "target_density"):
         words = name.replace("_", " ")
-        doubts = (
-            text for m in measurements for text in doubt(name, getattr(m, name), f"line {m.line}: {words}")
-        )
-        warnings += [text for text in [next(doubts, "")] if text]
-    return warnings
+        for m in measurements:
+            if text := doubt(name, getattr(m, name), f"{file}, line {m.line}: {words}"):
+                warnings += text
+                break
+    quantity = fitted.quantity.replace("_", " ")
+    return warnings + doubt(fitted.quantity, fitted.value, f"the fitted {quantity}", typed=False)
 
 
 def _rows(fitted: Fit, measurements: Sequence[Measurement]) -> list[dict[str, float | None]]:
@@ -128,11 +130,12 @@ def _text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[str, 
         results.append(("standard error", "unknown: one measurement, without an uncertainty"))
     else:
         percent = number(100 * fitted.standard_error / fitted.value, 3)
-        error = shown(fitted.quantity, fitted.standard_error)
-        results.append(("standard error", f"{error}, {percent} %"))
+        error = shown(fitted.quantity, fitted.standard_error, 3)
+        by = "uncertainties" if weighted else "scatter"
+        results.append(("standard error", f"{error}, {percent} %, by the {by}"))
     if fitted.chi_square is not None:
         freedom = fitted.points - 1
-        results.append(("chi square", f"{number(fitted.chi_square, 4)}, expected {freedom}"))
+        results.append(("chi square", f"{number(fitted.chi_square, 4)}, {freedom} expected"))
     return "\n".join(
         [
             filled(inputs_in_words(inputs)),

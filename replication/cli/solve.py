@@ -18,6 +18,7 @@ from replication.cli.case import (
 )
 from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import filled, put, width
+from replication.models.impact import Impact, InputError
 from replication.reading import place, quoted, read_number
 from replication.solve import DEPTHS, QUANTITIES, Solution, solve, solve_printed
 from replication.text import between, columns, number, with_unit
@@ -54,19 +55,21 @@ def run(options: argparse.Namespace) -> int:
     case, warnings = case_of(options)
     name = "normalized_depth" if options.depth is None else "depth"
     text: str = getattr(options, name)
-    with place(option(name)):
-        depth = read_number(text, DEPTHS[name])
-        if depth <= 0:
-            raise ValueError(f"{quoted(text)} is not greater than zero")
-        if quantity == "radius" and name == "normalized_depth":
-            raise ValueError("it does not depend on the radius: give --depth")
     texts = {name: text, **{key: x for key, x in given.items() if key in QUANTITIES}}
-    if options.rounded:
-        answer = solve_printed(case, quantity, texts)
-    else:
-        answer = solve(case, quantity, depth if name == "depth" else depth * case.radius)
+    depth = _depth(name, text, quantity, case)
+    try:
+        if options.rounded:
+            answer = solve_printed(case, quantity, texts)
+        else:
+            answer = solve(case, quantity, depth)
+    except InputError as error:
+        if quantity == "radius":
+            raise
+        radii = f"{depth / case.radius:.3g} times the radius"
+        raise ValueError(f"{option(name)}: the depth is {radii}: {error}") from error
     if answer.value is not None:
-        warnings += doubt(quantity, answer.value, f"the {_words(quantity)} for this depth")
+        named = f"the {_words(quantity)} for this depth"
+        warnings += doubt(quantity, answer.value, named, typed=False)
     record = {
         "inputs": dict(answer.inputs),
         "quantity": quantity,
@@ -82,6 +85,17 @@ def run(options: argparse.Namespace) -> int:
     return 0 if answer.value is not None or answer.interval is not None else 1
 
 
+def _depth(name: str, text: str, quantity: str, case: Impact) -> float:
+    """Read the depth, or the normalized depth, and return the depth [m]."""
+    with place(option(name)):
+        value = read_number(text, DEPTHS[name])
+        if value <= 0:
+            raise ValueError(f"{quoted(text)} is not greater than zero")
+        if name == "normalized_depth" and quantity == "radius":
+            raise ValueError("it does not depend on the radius: give --depth")
+    return value if name == "depth" else value * case.radius
+
+
 def _text(answer: Solution, texts: Mapping[str, str]) -> str:
     """Return the inputs, the depth, and the answer with its range and condition."""
     rows = [("depth", f"{number(answer.depth * 1e6, 8)} um ({answer.depth!r} m)")]
@@ -95,9 +109,7 @@ def _text(answer: Solution, texts: Mapping[str, str]) -> str:
     if answer.interval is not None:
         rows.append(("range", _range(answer, texts)))
     if answer.condition is not None:
-        change = "more" if answer.condition > 0 else "less"
-        percent = number(abs(answer.condition), 3)
-        means = f"1 % more depth means {percent} % {change} of it"
+        means = "relative change of it for one of the depth"
         rows.append(("condition", f"{number(answer.condition, 3)}: {means}"))
     return f"{filled(inputs_in_words(answer.inputs))}\n\n{columns(rows, min(width(), 100))}"
 
@@ -108,8 +120,8 @@ def _range(answer: Solution, texts: Mapping[str, str]) -> str:
     unit = shown_in(answer.quantity)
     ends = [Fraction(end) / to_si(unit) for end in answer.interval]
     alike = ", ".join(f"{_words(name)} {text}" for name, text in texts.items())
-    proven = f"{with_unit(between(ends, 5), unit)}, for all that prints like: {alike}"
-    return proven if answer.interval[0] > 0 else f"{proven}; some of it has no solution"
+    proven = f"{with_unit(between(ends, 5), unit)}, proven for all that prints as {alike}"
+    return proven if answer.interval[0] > 0 else f"{proven}; for some of that there is none"
 
 
 def _words(name: str) -> str:
