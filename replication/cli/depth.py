@@ -156,8 +156,8 @@ def _result(
         if source == "case" and names & set(typed):
             sources[key] = "given"
     return {
-        "model": name,
         "inputs": asdict(model),
+        "model": name,
         "sources": sources,
         "depth": model.final_depth,
         "normalized_depth": model.normalized_depth,
@@ -234,7 +234,7 @@ def _about_threshold(case: Impact, strength: float | None, threshold: float | No
     """Return what the threshold [m/s] of a particle's strength [Pa] means: it is no depth."""
     if strength is None or threshold is None:
         return []
-    reached = "is above it" if case.velocity > threshold else "is not"
+    reached = "is above it" if case.velocity > threshold else "is not above it"
     meaning = (
         f"By Eq. 5 a particle of strength Y_p {number(strength / 1e6)} MPa penetrates a target of "
         f"resistance R_t {number(case.target_resistance / 1e9)} GPa only above this velocity; "

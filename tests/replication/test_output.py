@@ -76,8 +76,10 @@ NO_STEPS = "the velocity 0.5 m/s is below the stop velocity 1.0 m/s: no steps"
         ),
         (
             "solve-rounded.json",
-            ["solve", "target-density", "--depth", "8.28 um", "--rounded", "--json"]
-            + ["--velocity", "500"],
+            [
+                *("solve", "target-density", "--depth", "8.28 um", "--rounded", "--json"),
+                *("--velocity", "500"),
+            ],
             [],
         ),
         ("fit.txt", ["fit", FIT], []),
