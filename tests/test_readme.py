@@ -49,7 +49,8 @@ def test_example_prints_what_the_page_says(command: str, output: str) -> None:
 def test_every_question_is_answered_by_its_command(command: str, tmp_path: Path) -> None:
     """In a folder of its own, as some write files; it has the data of `docs/`."""
     (tmp_path / "docs").mkdir()
-    shutil.copy(ROOT / "docs" / "fit.csv", tmp_path / "docs")
+    for data in (ROOT / "docs").glob("*.csv"):
+        shutil.copy(data, tmp_path / "docs")
     shutil.copytree(ROOT / "docs" / "sweeps", tmp_path / "docs" / "sweeps")
     with chdir(tmp_path):
         assert coldspray(*shlex.split(command))[0] == 0
