@@ -96,6 +96,7 @@ class Audit(Results):
         readings = [self._reading(claim, reading) for reading in assessment.readings]
         as_printed, *others = readings or [_NO_READING]
         is_open = assessment.verdict.is_open
+        tried, fitting = self.slips(claim) if is_open and "eq16" in claim.uses else (None, [])
         interval = None if claim.printed is None and claim.bound is None else claim.interval()
         ends = interval and (interval.lower, interval.upper)
         return r.filled(
@@ -121,7 +122,8 @@ class Audit(Results):
             figures=comparison.figures(self) if claim.kind == "remark" else [],
             back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
             repairs=self.explainer.repairs(claim.id) if is_open else [],
-            slips=self.explainer.slips(claim) if is_open and readings else [],
+            slips=fitting,
+            slips_tried=tried,
         )
 
     @staticmethod

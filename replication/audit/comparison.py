@@ -16,7 +16,8 @@ from typing import Any, TypeVar
 from reference.ledger import Convention
 from reference.scheme import Scheme
 from replication.audit import record as r
-from replication.audit.results import DENSITY, DERIVED, Results, case, exact_ratio
+from replication.audit.inference import DENSITY
+from replication.audit.results import DERIVED, Results, case, exact_ratio
 from replication.models import depth, motion, sheet
 from replication.models.crater import crater_depth, depth_from_volume_ratio
 from replication.models.impact import InputError

@@ -1,22 +1,21 @@
 """Possible explanations of a number that does not follow from the report.
 
-Other inputs, misprints and slips of the author's are tried, and those that would give the number
-are listed. The audit asserts none of them.
+Other inputs and misprints are tried, and those that would give the number are listed (`slips` tries
+slips of the author's). The audit asserts none of them.
 """
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from contextlib import suppress
 from fractions import Fraction
 from functools import cache, cached_property
 from itertools import pairwise, product
 from string import digits
 
-from reference.enclosure import Solutions, enclose, solve
-from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.enclosure import Solutions, solve
+from reference.ledger import INFERRED, Claim, Ledger
 from reference.printed import parse
 from reference.units import to_si
-from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, SlipRecord
+from replication.audit.record import BackSolvedRecord, Proof, RepairRecord
 from replication.audit.verdict import Judge, Values, agrees, disagreeing, follows
 
 
@@ -210,29 +209,6 @@ class Explainer:
         """Return the one repair with which nothing fails, if several claims fail now."""
         repairs = self.ranked(names) if len(names) > 1 else []
         return repairs[0] if repairs and not repairs[0].failing else None
-
-    # Slips
-
-    def slips(self, claim: Claim) -> list[SlipRecord]:
-        """Return what each slip of the author's that the ledger lists would give for a claim."""
-        target, rounded, records = claim.target(), Convention(choices_exact=False), []
-        for slip in (slip for slip in self.ledger.slip if slip.equation in claim.uses):
-            ledger = self.ledger
-            if slip.text is not None:
-                ledger = ledger.misprint(slip.equation, slip.text)
-            inputs = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
-            changed = claim.resting_on(**inputs)
-            function = ledger.function(changed)
-            value, fits = None, ""
-            with suppress(ArithmeticError):  # misprinted inputs may give no finite value
-                at_print = enclose(function, self.judge.printed(changed)).ends
-                value, fits = float(at_print[0] / claim.si), "not excluded within rounding"
-                if target.encloses(*at_print):
-                    fits = "as printed"
-                elif target.excludes(*enclose(function, self.judge.box(changed, rounded)).ends):
-                    fits = ""
-            records.append(SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits))
-        return records
 
 
 _BUDGET = 250

@@ -139,12 +139,27 @@ class RepairRecord(_Part, frozen=True):
 
 
 class SlipRecord(_Part, frozen=True):
-    """The value that a slip of the author's would give the claim; null where it gives none."""
+    """What Eq. 16 gives with slips of the author's: `departures` of them, named in `name`.
+
+    `fits` says for which target densities it gives the printed number.
+    """
 
     name: str
-    reason: str
-    value: float | None
+    departures: int
+    value: float
     fits: str
+
+
+class SlipsTried(_Part, frozen=True):
+    """The family of slips that was tried for a claim, as `replication.audit.slips` explains.
+
+    It has `members`, of which `near` come within a factor of 1.5 of the printed number. `expected`
+    is how many of them would fit it by accident.
+    """
+
+    members: int
+    near: int
+    expected: float
 
 
 class SourceRecord(_Part, frozen=True):
@@ -221,6 +236,7 @@ class ClaimRecord(_Part, frozen=True):
     back_solved: list[BackSolvedRecord]
     repairs: list[RepairRecord]
     slips: list[SlipRecord]
+    slips_tried: SlipsTried | None
     workbook: str | None
 
 

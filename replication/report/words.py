@@ -152,10 +152,7 @@ def significant(text: str) -> int:
 def tried(claim: r.ClaimRecord) -> list[Table]:
     """Return the explanations tried for a claim that fails, and the figures that judge a remark."""
     figures = [(f.means, measured(f.value, f.unit, 5) or NO_VALUE) for f in claim.figures]
-    slips = [
-        (s.name, s.reason, measured(s.value, "1", 3) or NO_VALUE, s.fits or "no")
-        for s in claim.slips
-    ]
+    slips = [(s.name, str(s.departures), measured(s.value, "1", 4), s.fits) for s in claim.slips]
     inputs = []
     for entry in dict.fromkeys(solved.entry for solved in claim.back_solved):
         by_reading = [solved for solved in claim.back_solved if solved.entry == entry]
@@ -169,9 +166,20 @@ def tried(claim: r.ClaimRecord) -> list[Table]:
         Table("The figures to judge it by", ("what", "computed"), figures),
         Table(changed, heads, inputs),
         repairs(claim.repairs, claim.id),
-        Table("Slips the author may have made", ("slip", "what it is", "gives", "fits"), slips),
+        Table(_slips_title(claim), ("Eq. 16 with", "slips", "gives", "fits"), slips),
     )
     return [shown for shown in tables if shown.rows]
+
+
+def _slips_title(claim: r.ClaimRecord) -> str:
+    """Say how large the family of slips is, and how many of it would fit by accident."""
+    tried = claim.slips_tried
+    if tried is None:
+        return ""
+    return (
+        f"Slips in Eq. 16 that give it: {len(claim.slips)} of {tried.members:,} tried; "
+        f"{tried.expected:.1f} would by accident"
+    )
 
 
 def _needed(solved: r.BackSolvedRecord) -> str:

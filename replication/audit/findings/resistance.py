@@ -5,8 +5,9 @@ from math import cbrt, expm1, log, sqrt
 
 from reference.units import to_si
 from replication.audit.findings.evidence import calculated, concerning, conclude, prints, proves
+from replication.audit.inference import DENSITY
 from replication.audit.record import Finding
-from replication.audit.results import DENSITY, Results, case, exact_ratio
+from replication.audit.results import Results, case, exact_ratio
 from replication.models.crater import crater_depth
 
 

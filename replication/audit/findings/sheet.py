@@ -18,9 +18,9 @@ from replication.audit.findings.evidence import (
     prints,
     proves,
 )
-from replication.audit.inference import Admission
+from replication.audit.inference import DENSITY, Admission
 from replication.audit.record import Finding, Verdict
-from replication.audit.results import DENSITY, Results, case
+from replication.audit.results import Results, case
 from replication.models import depth, sheet
 
 
