@@ -13,9 +13,8 @@ from reference.enclosure import satisfying
 from reference.ledger import Convention, load
 from reference.scheme import Scheme
 from replication.audit import verdict, wording
-from replication.audit.explain import Explainer
 from replication.audit.inference import Inference
-from replication.audit.record import Record, SlipRecord, Verdict
+from replication.audit.record import Record, Verdict
 from replication.audit.replica import replica
 from replication.audit.verdict import Assessment, Judge, Judgement
 
@@ -121,11 +120,6 @@ def judge(name: str, text: str) -> Judge:
 
 def judged(name: str, text: str, claim: str) -> Assessment:
     return judge(name, text).assess(judge(name, text).ledger.claims[claim])
-
-
-def slips(name: str, text: str) -> list[SlipRecord]:
-    """The slips that are tried as explanations of a misprinted claim."""
-    return Explainer(judge(name, text)).slips(judge(name, text).ledger.claims[name])
 
 
 test_what_evidence_allows_and_how_misprints_are_judged = calls(

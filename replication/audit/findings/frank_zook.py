@@ -3,7 +3,7 @@
 from fractions import Fraction
 from math import cbrt, expm1, log, log1p
 
-from reference.arithmetic import Arithmetic, Number
+from reference.arithmetic import Arithmetic, Floats, Number
 from reference.enclosure import enclose
 from reference.ledger import Convention
 from replication.audit.findings.evidence import (
@@ -64,6 +64,27 @@ def derived_ratio(
 ) -> float:
     """X/R [1] from Eqs. 14 and 15 at the target resistance R_t [Pa]."""
     return float(inertia(audit, length_ratio) / audit.exact("fz-kt")) * log1p(drag(audit) / R_t)
+
+
+def common_velocity(audit: Results) -> float:
+    """Return the velocity [m/s] up to which Eq. 16 raises X/R by more than the print allows.
+
+    The rise is the least for the greatest k_t and for the two R_t closest together, and it falls
+    as the velocity grows: so it holds below this velocity.
+    """
+    rounded = Convention(choices_exact=False)
+    k_t = audit.judge.rounded("fz-kt", rounded).ends[1]
+    R_t = audit.judge.rounded("fz-resistance-rha", rounded).ends[0]
+    R_low = audit.judge.rounded("fz-resistance-stainless", rounded).ends[1]
+    least, greatest, floats = Fraction(100), Fraction(10**5), Floats()
+    for _ in range(50):  # to 1e-10 m/s
+        middle = (least + greatest) / 2
+        values = [float(value) for value in (k_t, audit.exact(DENSITY), middle, R_t, R_low)]
+        if rise(floats, *values) > greatest_rise(audit):
+            least = middle
+        else:
+            greatest = middle
+    return float(least)
 
 
 def greatest_rise(audit: Results) -> Fraction:
@@ -161,6 +182,11 @@ def frank_zook_pair(audit: Results) -> Finding:
     z = prints(
         "z", "2.053", drag(audit), "GPa", "k_t rho_t V^2 at the inputs as printed and 7850 kg/m^3"
     )
+    limit = prints(
+        "limit", "2976", common_velocity(audit), "m/s",
+        "velocity below which this holds, both R_t and k_t rounded, 7850 kg/m^3",
+    )  # fmt: skip
+    density = equals("density", "7850", exact(DENSITY), "kg/m^3", "target density taken there")
     ratio = calculated("1.179", log1p(2.053 / (R_low / 10**9)) / log1p(2.053 / (R_t / 10**9)))
     greatest = calculated("1.072", 0.2975 / 0.2775)
     return conclude(
@@ -173,7 +199,10 @@ def frank_zook_pair(audit: Results) -> Finding:
         "cancels from the ratio: L/D, k_1, any constant factor, and whether X is divided by R or "
         "by D. This holds for all inputs that print like the report's; if "
         f"{text('fz-resistance-stainless')} Pa is itself rounded, X/R must still rise by "
-        f"{least_rounded} %. So at least one of the two numbers is misprinted, miscalculated, or "
+        f"{least_rounded} %. The velocity need not be the printed one: for any velocity below "
+        f"{limit} m/s, at {density} kg/m^3 and with both resistances rounded, X/R must rise by "
+        "more than the printed numbers can. So, if they were computed at one velocity and with one "
+        "pair of densities, at least one of the two numbers is misprinted, miscalculated, or "
         "comes from other inputs than those printed.",
         by_hand=f"With z = k_t rho_t V^2 = {z} GPa the ratio is ln(1 + "
         f"{z}/{text('fz-resistance-stainless', 'GPa')}) / ln(1 + "
@@ -182,7 +211,7 @@ def frank_zook_pair(audit: Results) -> Finding:
         settle="The calculation from which the two values were taken, or R_t as it was used in "
         "each.",
         status="open",
-        evidence=(falls, least, least_rounded, nominal, printed, most, z),
+        evidence=(falls, least, least_rounded, nominal, printed, most, z, limit, density),
         steps=(ratio, greatest),
     )
 
