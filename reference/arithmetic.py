@@ -51,10 +51,6 @@ class Arithmetic:
         third = self.asin(self.sqrt(3 * c) / 2) / 3
         return 2 * self.sin(third) ** 2 + self.sqrt(self.number(3)) * self.sin(2 * third)
 
-    def crater(self, volume_ratio: Number) -> Number:
-        """Return X/R of a crater from CV/PV = y^2 (3 - y)/4 = (3/4) (y^2 - y^3/3), y = X/R."""
-        return self.cap_root(4 * volume_ratio / 3)
-
     def contact_share(self, y: Number) -> Number:
         """Return the contact area over pi R^2 at y = x/R: y (2 - y), which increases on [0, 1]."""
         return y * (2 - y)

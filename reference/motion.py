@@ -50,6 +50,7 @@ def sheet_rows(
     else:
         area_over_mass = ar.pi * radius * radius / mass
 
+    is_centered = scheme is Scheme.CENTERED
     drag, push = target_density / 2 * area_over_mass, resistance * area_over_mass
     half_step, per_radius, unity = step / 2, 1 / radius, ar.number(1)
 
@@ -60,7 +61,7 @@ def sheet_rows(
     x, v = velocity * half_step, velocity
     for _ in range(most_rows):
         a = deceleration(x, v)
-        if scheme is Scheme.CENTERED:
+        if is_centered:
             a = deceleration(x, v - a * half_step)
         v_final = v - a * step
         yield Row(v, x, a, v_final)

@@ -1,6 +1,8 @@
 """The audit: every verdict, explanation and finding, put together as one record."""
 
 import sys
+from collections.abc import Callable, Mapping
+from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property, partial
 from hashlib import sha256
@@ -13,8 +15,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from reference import ledger as ledgers
-from reference.arithmetic import Floats
-from reference.equations import MATHML, PLAIN, NoValueError, evaluate, rendered
+from reference.arithmetic import Floats, Rationals
+from reference.equations import MATHML, PLAIN, Equations, NoValueError, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.scheme import Scheme
 from reference.units import to_si
@@ -148,16 +150,17 @@ class Audit(Results):
         All are None unless the claim is not reproduced and an equation of the report gives it.
         """
         nothing = dict.fromkeys(("formula", "mathml", "by_hand"))
-        premises = claim.computation.premises if claim.computation else {}
         wrong = self.judge.assess(claim).verdict is Verdict.NOT_REPRODUCED
-        if computed is None or not wrong or not premises:
+        if computed is None or not wrong or not claim.uses:
             return nothing
-        *_, premise = premises.values()  # the last may give the value itself
-        *_, right = sides = self.ledger.sides[premise.equation]
-        values = {"D": Fraction(1)}  # the ledger gives L in diameters
-        for symbol, text in premise.put.items():
-            if len(names := claim.inputs.get(text, ())) == 1:
-                values[symbol] = self.judge.value(*names)
+        equations = _Evaluations(self.ledger.sides)
+        compute = self.ledger.function(claim, equations=equations)
+        with suppress(ArithmeticError):  # the value itself may be irrational
+            compute(Rationals(), **{entry: self.judge.value(entry) for entry in claim.entries})
+        if equations.last is None:
+            return nothing
+        equation, values = equations.last  # which may give the value itself
+        *_, right = sides = self.ledger.sides[equation]
         doubles = {key: float(value) for key, value in values.items()}
         value_of = partial(evaluate, ar=Floats(), values=doubles)
         try:
@@ -175,7 +178,7 @@ class Audit(Results):
         in_symbols = (rendered(side, self._symbols) for side in sides)
         return {
             "formula": " = ".join((*in_symbols, with_numbers(right), result)),
-            "mathml": self._mathml(premise.equation),
+            "mathml": self._mathml(equation),
             "by_hand": f"{'; '.join(steps)}.",
         }
 
@@ -226,6 +229,21 @@ class Audit(Results):
             odd=list(inference.odd),
             sources=self.judge.sources(INFERRED + name) if is_usual else [],
         )
+
+
+class _Evaluations(Equations):
+    """The printed equations, with the last one that was evaluated and its symbols' values."""
+
+    last: tuple[str, Mapping[str, Fraction]] | None = None
+
+    def __getitem__(self, name: str) -> Callable[..., Any]:
+        evaluated = super().__getitem__(name)
+
+        def remembered(ar: Any, **symbols: Any) -> Any:
+            self.last = name, {symbol: Fraction(value) for symbol, value in symbols.items()}
+            return evaluated(ar, **symbols)
+
+        return remembered
 
 
 _NO_READING: Any = SimpleNamespace(

@@ -191,7 +191,7 @@ def scatter(results: Results) -> list[r.Scatter]:
         )  # fmt: skip
 
     laws = (
-        ("Eq. 1: mass alone", 1.5),
+        ("Eq. 1: mass alone", 3 * results["eq1-power"]),  # a mass grows with the diameter's cube
         ("drag on a sphere: mass and area", 0.5),
         ("as stated: normal", None),
     )

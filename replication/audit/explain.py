@@ -11,6 +11,7 @@ from functools import cache, cached_property
 from itertools import pairwise, product
 from string import digits
 
+from reference.derivations import premises_of
 from reference.enclosure import Solutions, solve
 from reference.ledger import INFERRED, Claim, Ledger
 from reference.printed import parse
@@ -133,8 +134,7 @@ class Explainer:
         """Return what may be misprinted: it, its inputs, its equations and their constants."""
         ledger = self.ledger
         if name in ledger.equations:
-            premises = ledger.equations[name].premises.values()
-            suspects = equations = {name, *(premise.equation for premise in premises)}
+            suspects = equations = {name, *premises_of(name)}
         else:
             claim = ledger.claims[name]
             equations = set(claim.uses)

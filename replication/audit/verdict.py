@@ -10,10 +10,10 @@ import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import Floats, InexactError, Rationals, Reals
+from reference.derivations import Check, derive
 from reference.enclosure import Box, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
-from reference.formulas import Check, Equation, derive
-from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, in_header
+from reference.ledger import INFERRED, Claim, Convention, Equation, Ledger, Source, in_header
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
 from reference.units import Dimension, DimensionError
@@ -203,7 +203,7 @@ class Judge:
 
     def _judgements(self, claim: Claim, reading: str) -> Iterator[Judgement]:
         """Yield a judgement for every convention that may matter, the usual first; ends in SI."""
-        printed = self.printed(claim)
+        printed = self.as_printed(claim)
         for scheme in Scheme if claim.by_scheme else (Scheme.PUBLISHED,):
             inferred = {e: self.inference(e, scheme=scheme).inner.ends for e in claim.inferred}
             at_print = admitted = self._range(claim, reading, scheme, printed)
@@ -296,10 +296,10 @@ class Judge:
         inferred = {entry: self.inference(entry).inner.ends for entry in claim.inferred}
         if not inferred:
             return []
-        idle = enclose(self.ledger.function(claim), {**self.printed(claim), **inferred}).idle
+        idle = enclose(self.ledger.function(claim), {**self.as_printed(claim), **inferred}).idle
         return [entry for entry in claim.inferred if entry not in idle]
 
-    def printed(self, claim: Claim) -> Box:
+    def as_printed(self, claim: Claim) -> Box:
         """Return the inputs of a claim as printed or, where they are inferred, as assumed."""
         return {entry: (self.value(entry),) * 2 for entry in claim.entries}
 
@@ -444,7 +444,7 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
     """Yield the checks of an equation, the dimensions last, as they are seldom what is wrong."""
     try:
         ledger.read(ledger.printed_text(name))  # else the sides are the report's
-        yield from derive(ledger.equations[name], ledger.sides, ledger.written)
+        yield from derive(name, ledger.sides, ledger.written)
     except (ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
     known: dict[str, Dimension | Fraction] = {**ledger.dimensions}

@@ -91,8 +91,9 @@ def equation_1_scatter(audit: Results) -> Finding:
     V, spread = exact("a1-initial-velocity"), exact("diameter-deviation") / exact("mean-diameter")
     by_mass, by_drag = 3 * exact("eq1-power"), Fraction(1, 2)
     mean_size = audit["mean-diameter"]
-    smallest = audit["figure-1-velocity"] * (mean_size / audit["particle-size-least"]) ** 1.5
-    largest = audit["figure-1-velocity"] * (mean_size / audit["particle-size-greatest"]) ** 1.5
+    least, greatest = audit["particle-size-least"], audit["particle-size-greatest"]
+    smallest = audit["figure-1-velocity"] * (mean_size / least) ** float(by_mass)
+    largest = audit["figure-1-velocity"] * (mean_size / greatest) ** float(by_mass)
     mass_ratio = 1 + 3 * spread**2
     power = equals("power", "1.5", by_mass, "1", "power of the diameter in Eq. 1, turned")
     drag_power = equals("drag_power", "0.5", by_drag, "1", "the same by drag on a sphere")
