@@ -20,7 +20,7 @@ from reference.equations import MATHML, PLAIN, Equations, NoValueError, evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.scheme import Scheme
 from reference.units import to_si
-from replication.audit import comparison, wording
+from replication.audit import comparison, remarks, wording
 from replication.audit import record as r
 from replication.audit.findings import findings
 from replication.audit.record import Verdict
@@ -121,7 +121,7 @@ class Audit(Results):
             **self._worked(claim, as_printed.computed),
             shown_by=self.judge.shown(claim),
             sources=self.judge.sources(claim.id),
-            figures=comparison.figures(self) if claim.kind == "remark" else [],
+            figures=remarks.figures(self, claim),
             back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
             repairs=self.explainer.repairs(claim.id) if is_open else [],
             slips=fitting,
