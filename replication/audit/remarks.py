@@ -92,8 +92,9 @@ def stream_velocity(results: Results, size: str, power: str) -> float:
     It is proportional to the mass to a power, by Eq. 1 (whose power a claim prints), or to the
     diameter to the power -1/2, by drag on a sphere.
     """
-    exponent = float(3 * results[power] if power else 0.5)
-    return results["velocity-521"] * pow(results["mean-diameter"] / results[size], exponent)
+    exponent = 3 * results[power] if power else 0.5
+    faster: float = (results["mean-diameter"] / results[size]) ** exponent
+    return results["velocity-521"] * faster
 
 
 LAWS = (("Eq. 1", "eq1-power"), ("drag on a sphere", ""))
