@@ -1,6 +1,7 @@
 """The verdicts: whether a printed number or equation follows from the rest of the report."""
 
 from collections.abc import Iterable, Iterator, Mapping
+from enum import StrEnum
 from fractions import Fraction
 from functools import cache, cached_property, partial
 from itertools import islice
@@ -77,6 +78,53 @@ class Assessment(msgspec.Struct, frozen=True):
     verdict: Verdict
     readings: tuple[Reading, ...] = ()
     no_value: str = ""
+
+
+class Standing(StrEnum):
+    """What a reproduced number tells: which inputs would have to be wrong for it to fail?
+
+    INDEPENDENT: any of several printed numbers, or the equation that computes it. EVIDENCE: none,
+    as an input was inferred from it. BY_DEFINITION: the one printed number that it scales or
+    selects. REPEATS: those of an earlier number, which would have failed with it.
+    """
+
+    INDEPENDENT = "independent"
+    EVIDENCE = "evidence"
+    BY_DEFINITION = "by definition"
+    REPEATS = "repeats"
+
+
+def standing(ledger: Ledger, claim: Claim) -> Standing | None:
+    """Return what it tells that a computed number is reproduced; None for any other claim."""
+    if not claim.is_computed or claim.computation is None or claim.within is not None:
+        return None
+    if any(claim.id in inferred.evidence for inferred in ledger.inferred.values()):
+        return Standing.EVIDENCE
+    if claim.computation.by_definition:
+        return Standing.BY_DEFINITION
+    for earlier in ledger.claims.values():
+        if earlier is claim:
+            return Standing.INDEPENDENT
+        same = earlier.computation is claim.computation and earlier.row == claim.row
+        if same and _roots(ledger, earlier) == _roots(ledger, claim):
+            return Standing.REPEATS
+    raise KeyError(claim.id)
+
+
+def _roots(ledger: Ledger, claim: Claim) -> dict[str, tuple[str, ...]]:
+    """Return a claim's inputs, each entry as it was first printed."""
+    return {
+        name: tuple(_first_printed(ledger, entry) for entry in entries)
+        for name, entries in claim.inputs.items()
+    }
+
+
+def _first_printed(ledger: Ledger, entry: str) -> str:
+    """Return the entry that an entry repeats, or itself."""
+    claim = ledger.claims.get(entry)
+    while claim is not None and claim.same_as is not None:
+        claim = ledger.claims[claim.same_as]
+    return entry if claim is None else claim.id
 
 
 def is_consistent(ledger: Ledger, claim: Claim) -> bool:
