@@ -464,9 +464,9 @@ class EquationAssessment(msgspec.Struct, frozen=True):
 def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> EquationAssessment:
     """Return the verdict on an equation and, if `constants`, on the constants in it.
 
-    An equation that the report derives must pass every check. If the report takes it from the
-    literature, only its dimensions, limits and signs can be checked: it is "not checkable" if they
-    hold.
+    An equation that the report derives must pass every check. A definition, and an equation that
+    repeats another, is consistent if it does. If the report takes an equation from the literature,
+    only its dimensions, limits and signs can be checked: it is "not checkable" if they hold.
 
     >>> from reference.ledger import load
     >>> assess_equation(load(), "eq16").factor
@@ -477,6 +477,7 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     passed, failed = {
         "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
         "definition": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
+        "repeat": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
         "taken over": (Verdict.NOT_CHECKABLE, Verdict.NOT_REPRODUCED),
     }[equation.kind]
     records = _constants(ledger, name, holds) if constants else {}
@@ -508,15 +509,26 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
 def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantRecord]:
     """Judge each constant of an equation by the values in its place that pass every check.
 
-    It is reproduced if only the printed value does, not reproduced if only other values do.
+    It is reproduced if only the printed value does, not reproduced if only other values do. In a
+    definition or a repeated equation the printed value is consistent instead. In an equation that is
+    taken over it is not checkable if only the quoted law itself decides it.
     """
     printed = {claim: ledger.value(claim) for claim in ledger.constants_of(name)}
+    kind = ledger.equations[name].kind
 
-    def passing(claim: str, corrected: Mapping[str, Fraction]) -> list[Fraction]:
-        """Return the values of a constant that pass every check, given corrected constants."""
+    def passing(
+        claim: str, corrected: Mapping[str, Fraction], *, quoted: bool = True
+    ) -> list[Fraction]:
+        """Return the values of a constant that pass every check, given corrected constants.
+
+        Without `quoted`, checks that quote the law itself are left out.
+        """
         tried = sorted({*_USUAL, *(printed[claim] * factor for factor in (1, 2, Fraction(1, 2)))})
         texts = {value: ledger.printed_text(name, {**corrected, claim: value}) for value in tried}
-        return [v for v, text in texts.items() if follows(ledger.misprint(name, text), name)]
+        checks = {v: _checks(ledger.misprint(name, text), name) for v, text in texts.items()}
+        return [
+            v for v, own in checks.items() if all(c.holds for c in own if quoted or not c.quotes)
+        ]
 
     needed = {claim: passing(claim, {}) for claim in printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
@@ -529,7 +541,12 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
     for claim, values in needed.items():
         verdict = Verdict.NOT_REPRODUCED if values else Verdict.UNDECIDED
         if printed[claim] in values:
-            verdict = Verdict.REPRODUCED if len(values) == 1 else Verdict.NOT_CHECKABLE
+            decided = len(values) == 1
+            if kind == "taken over":
+                decided = len(passing(claim, {}, quoted=False)) == 1
+            repeats = kind in ("definition", "repeat")
+            passed = Verdict.CONSISTENT if repeats else Verdict.REPRODUCED
+            verdict = passed if decided else Verdict.NOT_CHECKABLE
         constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=[*map(str, values)])
     return constants
 

@@ -226,7 +226,7 @@ def constant_explanation(ledger: Ledger, claim: Claim, constant: ConstantRecord)
     if equation.kind == "taken over":
         passes = "the equation has the right dimensions, limits and signs"
     match constant.verdict:
-        case Verdict.REPRODUCED:
+        case Verdict.REPRODUCED | Verdict.CONSISTENT:
             return f"With this number, and no other that was tried, {passes}."
         case Verdict.NOT_REPRODUCED:
             needed = " or ".join(constant.needed)
