@@ -75,10 +75,10 @@ class Power(Counts, kw_only=True):
         return Table("Rates in percent", ("", "planted", "visible", *rates), rows)
 
 
-def measured() -> Power:
+def measured_rates() -> Power:
     """Return the stored output of `coldspray power --json`; a slow test measures it again.
 
-    >>> measured().planted
+    >>> measured_rates().planted
     500
     """
     file = resources.files("replication") / "power.json"
@@ -125,9 +125,12 @@ def new_failures(
     """
     wrong = set()
     for name in equations:
-        assessed = audit.judge.equation(name, constants=False)
+        assessed = audit.judge.assess_equation(name, constants=False)
         # An equation that fails in the true report, too, must fail in another way.
-        if assessed.verdict.is_failure and assessed.checks != truth.judge.equation(name).checks:
+        if (
+            assessed.verdict.is_failure
+            and assessed.checks != truth.judge.assess_equation(name).checks
+        ):
             wrong.add(name)
     constants = {claim.id for claim in audit.ledger.claims.values() if claim.within in wrong}
     return wrong | {

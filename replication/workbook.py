@@ -17,7 +17,8 @@ from reference.ledger import Convention, Ledger, load
 from reference.printed import Interval, Printed
 from reference.scheme import Scheme
 from reference.units import to_si
-from replication.audit.record import Record, Verdict, in_words
+from replication.audit.assessment import Verdict
+from replication.audit.record import Record
 from replication.cases import BETA_3, BETA_5
 from replication.error import COARSE, DIGITS, OFF_STOP, too_long
 from replication.error import warnings as doubts_about
@@ -116,13 +117,13 @@ def build(
 
 def findings_of(record: Record, scheme: str, ledger: Ledger) -> Findings:
     """Return what the workbook shows of the audit, with the verdicts under the given scheme."""
-    convention = in_words(Convention(scheme=Scheme(scheme)))
+    convention = Convention(scheme=Scheme(scheme))
     verdicts, explanations = {}, {}
     for claim in record.claims:
         verdicts[claim.id], explanations[claim.id] = claim.verdict, claim.explanation
-        for judged in claim.otherwise:
-            if all(getattr(judged, key) == word for key, word in convention.items()):
-                verdicts[claim.id] = judged.verdict
+        for judgement in claim.as_printed.judgements if claim.as_printed else ():
+            if judgement.convention == convention:
+                verdicts[claim.id] = judgement.verdict
         if scheme != "published" and ledger.claims[claim.id].by_scheme:
             explanations[claim.id] = f"With the published scheme: {claim.explanation}"
     counts = Counter(verdicts.values())

@@ -1,6 +1,7 @@
 """The audit: every verdict, explanation and finding, put together as one record."""
 
 import sys
+from collections import Counter
 from collections.abc import Callable, Mapping
 from contextlib import suppress
 from fractions import Fraction
@@ -8,8 +9,7 @@ from functools import cached_property, partial
 from hashlib import sha256
 from importlib import metadata, resources
 from itertools import product
-from math import inf, isclose, nextafter
-from types import SimpleNamespace
+from math import isclose
 from typing import Any
 
 from msgspec.structs import replace
@@ -22,10 +22,9 @@ from reference.scheme import Scheme
 from reference.units import to_si
 from replication.audit import comparison, remarks, wording
 from replication.audit import record as r
+from replication.audit.assessment import Standing, Verdict
 from replication.audit.findings import findings
-from replication.audit.record import Verdict
 from replication.audit.results import Results
-from replication.audit.verdict import Judgement, Reading
 from replication.text import number, powers_of_ten
 
 
@@ -39,8 +38,8 @@ class Audit(Results):
 
     def record(self) -> r.Record:
         """Return the finished audit as data."""
-        claims = [self.claim(claim) for claim in self.ledger.claims.values()]
-        equations = [self._equation(name) for name in self.ledger.equations]
+        claims = [self.claim(name) for name in self.ledger.claims]
+        equations = [self.equation(name) for name in self.ledger.equations]
         headline, *others = findings(self)
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
@@ -58,7 +57,7 @@ class Audit(Results):
             claims=claims,
             equations=equations,
             findings=others,
-            inferred=[self._inferred(*pair) for pair in inferred],
+            inferred=[self.inferred(*pair) for pair in inferred],
             approaches=comparison.approaches(self),
             sensitivity=comparison.sensitivity(self),
             scatter=comparison.scatter(self),
@@ -67,15 +66,16 @@ class Audit(Results):
             ladders=comparison.ladders(self),
             blank_cells=list(self.ledger.blank),
             symbols={symbol.shown: symbol.means for symbol in self.ledger.symbols.values()},
-            provenance=_provenance(),
+            provenance=provenance(),
         )
 
     @staticmethod
     def _counts(claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
         reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
-        computed = [(c.reference, c.unit) for c in reproduced if c.reference is not None]
+        computed = [(c.as_printed.reference, c.claim.unit) for c in reproduced if c.as_printed]
         values = {float(Fraction(digits) * to_si(unit)) for digits, unit in computed}
-        remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
+        standings = Counter(claim.assessment.standing for claim in reproduced)
+        remarks = sum(record.claim.kind in ("remark", "comparison") for record in claims)
         return r.Counts(
             entries=len(claims),
             numbers=len(claims) - remarks,
@@ -84,6 +84,10 @@ class Audit(Results):
             constants=len(reproduced) - len(computed),
             computed=len(computed),
             values=len(values),
+            independent=standings[Standing.INDEPENDENT],
+            evidence=standings[Standing.EVIDENCE],
+            by_definition=standings[Standing.BY_DEFINITION],
+            repeats=standings[Standing.REPEATS],
             failing=sum(claim.verdict.is_failure for claim in claims),
             equations=len(equations),
             equations_derived=sum(e.verdict == Verdict.REPRODUCED for e in equations),
@@ -92,82 +96,57 @@ class Audit(Results):
 
     # Claims
 
-    def claim(self, claim: Claim) -> r.ClaimRecord:
-        """Return the record of one claim."""
+    def claim(self, name: str) -> r.ClaimRecord:
+        """Return the record of one claim, by its id. Raises KeyError if there is none.
+
+        >>> Audit(ledgers.load()).claim("depth-beta-5").verdict.value
+        'reproduced'
+        """
+        claim = self.ledger.claims[name]
         assessment = self.judge.assess(claim)
-        readings = [self._reading(claim, reading) for reading in assessment.readings]
-        as_printed, *others = readings or [_NO_READING]
-        is_open = assessment.verdict.is_open
+        computed = assessment.readings[0].computed if assessment.readings else None
+        is_open, is_computed = assessment.verdict.is_open, computed is not None
         tried, fitting = self.slips(claim) if is_open and "eq16" in claim.uses else (None, [])
-        interval = None if claim.printed is None and claim.bound is None else claim.interval()
-        ends = interval and (interval.lower, interval.upper)
-        return r.filled(
-            r.ClaimRecord,
-            *(claim, claim.place, as_printed),
-            cell=claim.cell,
-            where=str(claim.place),
-            quote=" ".join(claim.quote.split()),
-            printed=claim.text,
-            interval=ends and tuple(end if end is None else float(end) for end in ends),
-            interval_exact=ends and tuple(end if end is None else str(end) for end in ends),
-            interval_text=str(interval) if interval else None,
-            verdict=assessment.verdict,
-            restates=claim.inputs.get("value", (None,))[0] if claim.restates else None,
-            error_in_last_digit=_error(claim, as_printed.computed),
-            readings=others,
-            rests_on={name: list(entries) for name, entries in claim.inputs.items()},
-            assumes=wording.assumptions(self.judge, claim, as_printed.computed),
+        return r.ClaimRecord(
+            claim=claim,
+            assessment=assessment,
             explanation=wording.explanation(self.judge, claim, assessment),
-            **self._worked(claim, as_printed.computed),
-            shown_by=self.judge.shown(claim),
-            sources=self.judge.sources(claim.id),
+            scopes=[wording.scope(claim, reading) for reading in assessment.readings],
+            assumes=wording.assumptions(self.judge, claim, computed),
+            error_in_last_digit=_error(claim, computed),
+            worked=self._worked(claim, computed),
+            confirmed_range=self.judge.confirmed_range(claim),
+            sources=self.judge.sources(name),
             figures=remarks.figures(self, claim),
-            back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
-            repairs=self.explainer.repairs(claim.id) if is_open else [],
+            back_solved=self.explainer.back_solved(claim) if is_open and is_computed else [],
+            repairs=self.explainer.repairs(name) if is_open else [],
             slips=fitting,
             slips_tried=tried,
         )
 
-    @staticmethod
-    def _reading(claim: Claim, reading: Reading) -> r.ReadingRecord:
-        judgement = reading.judgements[0]
-        witness = {name: float(value) for name, value in (judgement.witness or {}).items()}
-        return r.filled(
-            r.ReadingRecord,
-            reading,
-            **_proven(judgement),
-            witness=witness or None,
-            holds=wording.holds(claim, reading),
-            otherwise=[
-                r.Judged(verdict=j.verdict, **r.in_words(j.convention), **_proven(j))
-                for j in reading.otherwise
-            ],
-        )
-
-    def _worked(self, claim: Claim, computed: float | None) -> dict[str, str | None]:
+    def _worked(self, claim: Claim, computed: float | None) -> r.Worked | None:
         """Return a claim's formula with its numbers put in, its equation, and the steps by hand.
 
-        All are None unless the claim is not reproduced and an equation of the report gives it.
+        None unless the claim is not reproduced and an equation of the report gives it.
         """
-        nothing = dict.fromkeys(("formula", "mathml", "by_hand"))
         wrong = self.judge.assess(claim).verdict is Verdict.NOT_REPRODUCED
         if computed is None or not wrong or not claim.uses:
-            return nothing
+            return None
         equations = _Evaluations(self.ledger.sides)
         compute = self.ledger.function(claim, equations=equations)
         with suppress(ArithmeticError):  # the value itself may be irrational
             compute(Rationals(), **{entry: self.judge.value(entry) for entry in claim.entries})
         if equations.last is None:
-            return nothing
+            return None
         equation, values = equations.last  # which may give the value itself
         *_, right = sides = self.ledger.sides[equation]
         doubles = {key: float(value) for key, value in values.items()}
         value_of = partial(evaluate, ar=Floats(), values=doubles)
         try:
             if not isclose(value_of(right), computed, rel_tol=1e-9):
-                return nothing
+                return None
         except NoValueError:
-            return nothing
+            return None
         put_in = self._symbols | {key: _short(value) for key, value in values.items()}
         with_numbers = partial(rendered, shown=put_in, notation=_NUMBERS)
         factors = right.parts if right.kind == "product" else (right,)
@@ -176,11 +155,11 @@ class Audit(Results):
         if len(steps) > 1:
             steps.append(f"{' · '.join(texts)} = {result}")
         in_symbols = (rendered(side, self._symbols) for side in sides)
-        return {
-            "formula": " = ".join((*in_symbols, with_numbers(right), result)),
-            "mathml": self._mathml(equation),
-            "by_hand": f"{'; '.join(steps)}.",
-        }
+        return r.Worked(
+            formula=" = ".join((*in_symbols, with_numbers(right), result)),
+            mathml=self._mathml(equation),
+            by_hand=f"{'; '.join(steps)}.",
+        )
 
     @cached_property
     def _symbols(self) -> dict[str, str]:
@@ -193,40 +172,37 @@ class Audit(Results):
 
     # Equations and inferred inputs
 
-    def _equation(self, name: str) -> r.EquationRecord:
-        assessed = self.judge.equation(name)
-        place = assessed.equation.place
-        return r.filled(
-            r.EquationRecord,
-            *(assessed.equation, assessed),
-            number=place.equation,
-            where=str(place),
+    def equation(self, name: str) -> r.EquationRecord:
+        """Return the record of one equation, by its id. Raises KeyError if there is none.
+
+        >>> Audit(ledgers.load()).equation("eq16").assessment.factor
+        Fraction(1, 2)
+        """
+        assessed = self.judge.assess_equation(name)
+        return r.EquationRecord(
+            assessment=assessed,
             text=self.ledger.printed_text(name),
             mathml=self._mathml(name),
-            factor=None if assessed.factor is None else str(assessed.factor),
-            constants=list(assessed.constants.values()),
             explanation=wording.equation_explanation(self.ledger, assessed),
             repairs=self.explainer.repairs(name) if assessed.verdict.is_failure else [],
         )
 
-    def _inferred(self, name: str, scheme: Scheme) -> r.InferredRecord:
+    def inferred(self, name: str, scheme: Scheme) -> r.InferredRecord:
+        """Return what the evidence admits of an input that the report does not print."""
         is_usual = scheme is Scheme.PUBLISHED
         inference = self.judge.inference(INFERRED + name, scheme=scheme)
-        entry, si = inference.entry, 1 / to_si(inference.entry.unit)
-        inner = inference.inner.scaled(si).ends
+        si = 1 / to_si(inference.entry.unit)
         rounded = inference.admitted(Convention()) if is_usual else None
-        return r.filled(
-            r.InferredRecord,
-            entry,
+        return r.InferredRecord(
             id=name,
+            entry=inference.entry,
             scheme=scheme,
             assumed=float(self.judge.value(INFERRED + name) * si),
-            interval=_doubles(*inner, inward=True),
-            interval_exact=(str(inner[0]), str(inner[1])),
-            with_printed_mass=_doubles(*inference.with_mass.scaled(si).ends, inward=True),
-            possible_with_rounded_inputs=rounded and _doubles(*rounded.scaled(si).ends),
-            evidence=list(inference.agreeing),
-            odd=list(inference.odd),
+            interval=inference.inner.scaled(si).ends,
+            with_printed_mass=inference.with_mass.scaled(si).ends,
+            possible_with_rounded_inputs=None if rounded is None else rounded.scaled(si).ends,
+            evidence=inference.agreeing,
+            odd=inference.odd,
             sources=self.judge.sources(INFERRED + name) if is_usual else [],
         )
 
@@ -244,12 +220,6 @@ class _Evaluations(Equations):
             return evaluated(ar, **symbols)
 
         return remembered
-
-
-_NO_READING: Any = SimpleNamespace(
-    **{**dict.fromkeys(r.ReadingRecord.__struct_fields__), "holds": "", "otherwise": []}
-)
-"""The reading of a claim that no computation gives."""
 
 
 def _short(value: Fraction) -> str:
@@ -274,35 +244,24 @@ def _error(claim: Claim, computed: float | None) -> float | None:
     return float((Fraction(computed) - printed.value) / quantum)
 
 
-def _proven(judgement: Judgement) -> dict[str, Any]:
-    """Return the fields for a proven range: as doubles, never narrower, and exactly."""
-    return {
-        "enclosure": _doubles(*judgement.ends),
-        "enclosure_exact": tuple(map(str, judgement.ends)),
-    }
+LIBRARIES = "coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter"
+"""The distributions whose versions may change a byte of the files."""
 
 
-def _doubles(lower: Fraction, upper: Fraction, inward: bool = False) -> tuple[float, float]:
-    """Round the ends to doubles so that the interval never narrows, or if `inward` never widens."""
-    if inward:
-        return -_down(-lower), _down(upper)
-    return _down(lower), -_down(-upper)
+def provenance() -> dict[str, Any]:
+    """Return the versions of the programs in use and the hashes of the files that were read.
 
-
-def _down(value: Fraction) -> float:
-    """Return the greatest double that is not above the value."""
-    double = float(value)
-    return nextafter(double, -inf) if Fraction(double) > value else double
-
-
-def _provenance() -> dict[str, object]:
-    """Return the versions of the programs in use and the hashes of the files that were read."""
+    A library that is not installed is left out, as an audit without its files can do without some.
+    """
     folder = resources.files("reference") / "report"
-    libraries = ("coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter")
+    versions = {}
+    for name in LIBRARIES:
+        with suppress(metadata.PackageNotFoundError):
+            versions[name] = metadata.version(name)
     files = ("de_rosset_2006.txt", "ledger.toml", "sources.toml")
     return {
         "command": "coldspray audit",
         "python": ".".join(map(str, sys.version_info[:3])),
-        "versions": {name: metadata.version(name) for name in libraries},
+        "versions": versions,
         "sha256": {name: sha256((folder / name).read_bytes()).hexdigest() for name in files},
     }

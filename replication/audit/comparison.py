@@ -50,7 +50,7 @@ def approaches(results: Results) -> list[r.Approach]:
     def approach(kind: str, name: str, claim: str = "", *computation: Any) -> r.Approach:
         return r.Approach(
             kind=kind, name=name, computed=_value(*computation) if computation else None,
-            claim=claim or None, printed=claims[claim].shown if claim else "",
+            claim=claim or None, shown=claims[claim].shown if claim else "",
         )  # fmt: skip
 
     def in_sheet(beta: int) -> float:
@@ -192,7 +192,7 @@ def curves(results: Results) -> list[r.Curve]:
         return r.Curve(
             beta=float(beta), sheet_time=[row.time for row in rows],
             sheet_depth=[row.depth for row in rows], exact_time=times, exact_depth=depths,
-            printed=results.ledger.claims[f"depth-beta-{beta}"].shown,
+            shown=results.ledger.claims[f"depth-beta-{beta}"].shown,
         )  # fmt: skip
 
     return _parts(curve, product(BETAS))

@@ -14,7 +14,7 @@ import msgspec
 from reference.ledger import Ledger, claims_of_case
 from reference.printed import parse
 from reference.units import to_si
-from replication.audit.record import Verdict
+from replication.audit.assessment import Verdict
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.text import number
@@ -34,8 +34,8 @@ def outlier_volume(ledger: Ledger) -> CrossCheck:
     inside = float(least.value) <= diameter <= float(greatest.value)
     verdict = Verdict.CONSISTENT if inside else Verdict.INCONSISTENT
     says = (
-        f"A sphere of that volume is {number(diameter * 1e6, 3)} µm wide; the particles of the data "
-        f"fall between {least.shown} and {greatest.shown} µm."
+        f"A sphere of that volume is {number(diameter * 1e6, 3)} µm wide; the particles of the "
+        f"data fall between {least.shown} and {greatest.shown} µm."
     )
     return CrossCheck(verdict, says)
 
@@ -53,8 +53,8 @@ def autodyne_time(ledger: Ledger) -> CrossCheck:
     verdict = Verdict.CONSISTENT if scaled > stop else Verdict.INCONSISTENT
     says = (
         f"Scaled to a particle of {ledger.claims['mean-diameter'].shown} µm it is "
-        f"{number(scaled * 1e9, 2)} ns, {number(scaled / stop, 2)} times the time in which the model's "
-        "particle stops (beta = 5): the depth is final by then."
+        f"{number(scaled * 1e9, 2)} ns, {number(scaled / stop, 2)} times the time in which the "
+        "model's particle stops (beta = 5): the depth is final by then."
     )
     return CrossCheck(verdict, says)
 

@@ -16,7 +16,7 @@ from reference.enclosure import Solutions, solve
 from reference.ledger import INFERRED, Claim, Ledger
 from reference.printed import parse
 from reference.units import to_si
-from replication.audit.record import BackSolvedRecord, Proof, RepairRecord
+from replication.audit.record import BackSolved, Proof, Repair
 from replication.audit.verdict import Judge, Values, agrees, disagreeing, follows
 
 
@@ -56,7 +56,7 @@ class Explainer:
 
     # Single inputs
 
-    def back_solved(self, claim: Claim) -> list[BackSolvedRecord]:
+    def back_solved(self, claim: Claim) -> list[BackSolved]:
         """Return, for every reading and input, the values of this input that give the number."""
         ledger, records = self.ledger, []
         for reading, name in product(claim.computations, claim.entries):
@@ -70,12 +70,12 @@ class Explainer:
             si, spans = to_si(unit), (solutions.search, *solutions.inner)
             search, *intervals = [(float(low / si), float(high / si)) for low, high in spans]
             records.append(
-                BackSolvedRecord(
+                BackSolved(
                     reading=reading,
                     entry=name,
                     title=ledger.title(name),
                     unit=unit,
-                    printed=float(self.judge.value(name) / si),
+                    as_printed=float(self.judge.value(name) / si),
                     intervals=intervals,
                     search=search,
                     search_reason=ledger.search(name)[2],
@@ -94,7 +94,7 @@ class Explainer:
 
     # Misprints
 
-    def repairs(self, name: str) -> list[RepairRecord]:
+    def repairs(self, name: str) -> list[Repair]:
         """Return the one-edit corrections that make a claim or an equation agree, likeliest first.
 
         The fewer claims fail with a repair, the likelier it is; among equals, the likelier typing
@@ -103,7 +103,7 @@ class Explainer:
         name = self.ledger.equation_of(name) or name
         return self._repairs(name, self._suspects(name))
 
-    def _repairs(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
+    def _repairs(self, name: str, entries: Iterable[str]) -> list[Repair]:
         """Return the edits of these entries that make a claim agree, likeliest first."""
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
         repairs = [repair for entry in entries for repair in self._repairs_by(name, entry)]
@@ -112,17 +112,17 @@ class Explainer:
         ))  # fmt: skip
         return repairs[:_SHOWN]
 
-    def _edited(self, name: str, entry: str) -> list[RepairRecord]:
+    def _edited(self, name: str, entry: str) -> list[Repair]:
         repairs = []
         for text, kind in edits_of(self.ledger, entry):
             changed = self.ledger.misprint(entry, text)
             if (reading := self._agreeing(name, entry, changed)) is not None:
                 repairs.append(
-                    RepairRecord(
+                    Repair(
                         entry=entry,
                         title=self.ledger.title(entry),
                         reading=reading,
-                        printed=self.ledger.printed_text(entry),
+                        original=self.ledger.printed_text(entry),
                         text=text,
                         kind=kind,
                         failing=sorted(self._failing(entry, changed)),
@@ -182,7 +182,7 @@ class Explainer:
 
     # One misprint behind several failures
 
-    def ranked(self, names: Collection[str]) -> list[RepairRecord]:
+    def ranked(self, names: Collection[str]) -> list[Repair]:
         """Return the repairs that may explain several failures at once, likeliest first.
 
         A misprint behind all of them is in an entry that all depend on, so only such entries are
@@ -205,7 +205,7 @@ class Explainer:
             return 2 if self.ledger.equation_of(name) else 0, name
         return 1 + 2 * claim.by_scheme + claim.by_whole_sheet, name
 
-    def culprit(self, names: Collection[str]) -> RepairRecord | None:
+    def culprit(self, names: Collection[str]) -> Repair | None:
         """Return the one repair with which nothing fails, if several claims fail now."""
         repairs = self.ranked(names) if len(names) > 1 else []
         return repairs[0] if repairs and not repairs[0].failing else None

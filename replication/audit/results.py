@@ -6,10 +6,10 @@ from functools import cache, partial
 from reference.ledger import Ledger, claims_of_case
 from reference.printed import decimal_text
 from reference.units import to_si
+from replication.audit.assessment import Reading, Verdict
 from replication.audit.explain import Explainer
-from replication.audit.record import Verdict
 from replication.audit.slips import tried
-from replication.audit.verdict import Judge, Reading
+from replication.audit.verdict import Judge
 from replication.models import depth
 from replication.models.impact import Impact
 
@@ -59,7 +59,7 @@ class Results:
     def verdict(self, name: str) -> Verdict:
         """Return the verdict on a claim or an equation."""
         if name in self.ledger.equations:
-            return self.judge.equation(name).verdict
+            return self.judge.assess_equation(name).verdict
         return self.judge.assess(self.ledger.claims[name]).verdict
 
     def verdicts(self, prefix: str) -> set[Verdict]:

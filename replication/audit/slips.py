@@ -23,7 +23,7 @@ from typing import Any
 
 from reference.ledger import Claim, Ledger
 from replication.audit.inference import DENSITY
-from replication.audit.record import SlipRecord, SlipsTried
+from replication.audit.record import FittingSlip, SlipsTried
 from replication.audit.verdict import Judge
 from replication.text import number, powers_of_ten
 
@@ -421,7 +421,7 @@ NEAR = 1.5
 """Members within this factor of a number tell how many would fit it by accident."""
 
 
-def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[SlipRecord]]:
+def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSlip]]:
     """Return which slips give a claim that Eq. 16 should give, and how many would by accident.
 
     A slip fits if it gives the number, with all other inputs as printed, for some target density
@@ -430,7 +430,7 @@ def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[SlipRecord]]:
     """
     x, densities = _inputs(judge, claim), _admitted(judge)
     low, high = (float(end) for end in claim.target().ends)
-    middle, seen, fitting = (low + high) / 2, set[str](), list[SlipRecord]()
+    middle, seen, fitting = (low + high) / 2, set[str](), list[FittingSlip]()
     near, expected = 0, 0.0
     for member in family(judge.ledger, x):
         value = _value(x, member)
@@ -446,7 +446,7 @@ def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[SlipRecord]]:
         expected += width / (2 * log(NEAR))
         if max(values) >= low and min(values) < high:
             fitting.append(
-                SlipRecord(
+                FittingSlip(
                     name="; ".join(slip.says for slip in member) or "Eq. 16 as printed",
                     departures=len(member),
                     value=value,

@@ -1,97 +1,37 @@
 """The verdicts: whether a printed number or equation follows from the rest of the report."""
 
 from collections.abc import Iterable, Iterator, Mapping
-from enum import StrEnum
 from fractions import Fraction
 from functools import cache, cached_property, partial
 from itertools import islice
 from math import prod
 
-import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import Floats, InexactError, Rationals, Reals
 from reference.derivations import Check, derive
 from reference.enclosure import Box, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
-from reference.ledger import INFERRED, Claim, Convention, Equation, Ledger, Source, in_header
+from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, in_header
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
 from reference.units import Dimension, DimensionError
-from replication.audit import record as r
+from replication.audit.assessment import (
+    Assessment,
+    Comparison,
+    ConfirmedRange,
+    EquationAssessment,
+    JudgedConstant,
+    Judgement,
+    Reading,
+    Standing,
+    Verdict,
+)
+from replication.audit.crosschecks import CROSS_CHECKS
 from replication.audit.inference import Admission, Inference
-from replication.audit.record import ConstantRecord, Shown, Verdict
 from replication.audit.replica import replica
 
 _REALS, _RATIONALS = Reals(50), Rationals()
-
-
-class Judgement(msgspec.Struct, frozen=True):
-    """The verdict under one convention.
-
-    `ends` is a range proven to contain the value, in the claim's unit: if the printed inputs give
-    the number, for these and all admitted values of the inferred inputs; else for all inputs that
-    print like the report's. Unless the number is reproduced, `witness` holds inputs (SI) that give
-    it, if some are known; it has the mass in place of a radius computed from the mass.
-    `against_evidence`: some value in the range prints like the claim, but it is proven that no
-    inputs give both it and the numbers from which an input is inferred.
-    """
-
-    convention: Convention
-    verdict: Verdict
-    ends: Ends
-    witness: Mapping[str, Fraction] | None = None
-    against_evidence: bool = False
-
-
-class Reading(msgspec.Struct, frozen=True):
-    """The result of one computation of a claim, by one reading of the report; in the claim's unit.
-
-    `computed` is the models' double for the inputs as printed (in a ledger with a misprint, that of
-    the ledger's formula), `reference` the same value to 25 digits; `judgements` has one judgement
-    for every convention, the usual one first.
-    """
-
-    name: str
-    summary: str
-    computed: float
-    reference: str
-    judgements: tuple[Judgement, ...]
-
-    @property
-    def verdict(self) -> Verdict:
-        """The verdict under the usual convention."""
-        return self.judgements[0].verdict
-
-    @property
-    def otherwise(self) -> list[Judgement]:
-        """The judgements whose verdict differs from that under the usual convention."""
-        return [judgement for judgement in self.judgements if judgement.verdict != self.verdict]
-
-
-class Assessment(msgspec.Struct, frozen=True):
-    """The verdict on a claim, and the readings behind it, the one as printed first.
-
-    `no_value` says why the inputs as printed give no value, where they should.
-    """
-
-    verdict: Verdict
-    readings: tuple[Reading, ...] = ()
-    no_value: str = ""
-
-
-class Standing(StrEnum):
-    """What a reproduced number tells: which inputs would have to be wrong for it to fail?
-
-    INDEPENDENT: any of several printed numbers, or the equation that computes it. EVIDENCE: none,
-    as an input was inferred from it. BY_DEFINITION: the one printed number that it scales or
-    selects. REPEATS: those of an earlier number, which would have failed with it.
-    """
-
-    INDEPENDENT = "independent"
-    EVIDENCE = "evidence"
-    BY_DEFINITION = "by definition"
-    REPEATS = "repeats"
 
 
 def standing(ledger: Ledger, claim: Claim) -> Standing | None:
@@ -127,6 +67,21 @@ def _first_printed(ledger: Ledger, entry: str) -> str:
     return entry if claim is None else claim.id
 
 
+def _compare(claim: Claim, source: Source) -> tuple[bool, str]:
+    """Return whether a claim agrees with a public source, and in which words.
+
+    "300" may have one, two or three significant digits: it differs only if no reading agrees.
+    """
+    if claim.target().meets(source.interval):
+        return True, "agrees"
+    printed = claim.printed
+    if printed is not None and claim.bound is None and not claim.is_exact:
+        for digits in printed.quanta:
+            if printed.interval(quantum=digits).scaled(claim.si).meets(source.interval):
+                return True, f"agrees if only some digits of {claim.shown} are significant"
+    return False, "differs"
+
+
 def is_consistent(ledger: Ledger, claim: Claim) -> bool:
     """Return whether a claim that restates agrees with the number it repeats, or with the count.
 
@@ -152,9 +107,9 @@ class Judge:
         self.ledger, self.every_convention = ledger, every_convention
         # Cached by this object and not by the functions, so that the results are freed with it.
         self._inferences = cache(partial(Inference, ledger))
-        self.equation = cache(partial(assess_equation, ledger))
+        self.assess_equation = cache(partial(assess_equation, ledger))
         self.assess = cache(self._assess)
-        self.shown = cache(self._shown)
+        self.confirmed_range = cache(self._confirmed_range)
         self.sources = cache(self._sources)
 
     def inference(
@@ -189,7 +144,7 @@ class Judge:
 
         What the report computes or repeats is computed or compared again, and a constant of an
         equation is judged with the equation. Only where that decides nothing, public sources do,
-        or the claims that are computed from the number.
+        or the claims that are computed from the number, or what limits it.
         """
         if claim.kind == "remark":
             return Assessment(Verdict.REMARK)
@@ -205,12 +160,18 @@ class Judge:
             is_printed = any(source.agrees for source in sources)
             return Assessment(Verdict.AGREES if is_printed else Verdict.DIFFERS)
         if claim.shown_by:
-            return Assessment(Verdict.CONSISTENT if self.shown(claim) else Verdict.INCONSISTENT)
+            is_met = self.confirmed_range(claim) is not None
+            return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
+        if claim.id in CROSS_CHECKS:
+            checked = CROSS_CHECKS[claim.id](self.ledger)
+            return Assessment(checked.verdict, compared=checked.says)
+        if claim.given == "definition":
+            return Assessment(Verdict.CONSISTENT)
         return Assessment(Verdict.NOT_CHECKABLE)
 
-    def constant(self, claim: Claim) -> ConstantRecord | None:
+    def constant(self, claim: Claim) -> JudgedConstant | None:
         """Return the judgement on a claim as a constant of its equation; None if it is none."""
-        return self.equation(claim.within).constants.get(claim.id) if claim.within else None
+        return self.assess_equation(claim.within).constants.get(claim.id) if claim.within else None
 
     def _recomputed(self, claim: Claim) -> Assessment:
         """Return the verdict on a claim that the report computes.
@@ -222,7 +183,9 @@ class Judge:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
         except ArithmeticError as error:
             return Assessment(Verdict.NOT_REPRODUCED, no_value=str(error))
-        return Assessment(readings[0].verdict, readings)
+        verdict = readings[0].verdict
+        told = standing(self.ledger, claim) if verdict is Verdict.REPRODUCED else None
+        return Assessment(verdict, readings, standing=told)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         function = self.ledger.function(claim, reading=name)
@@ -251,7 +214,7 @@ class Judge:
 
     def _judgements(self, claim: Claim, reading: str) -> Iterator[Judgement]:
         """Yield a judgement for every convention that may matter, the usual first; ends in SI."""
-        printed = self.as_printed(claim)
+        printed = self.inputs_as_printed(claim)
         for scheme in Scheme if claim.by_scheme else (Scheme.PUBLISHED,):
             inferred = {e: self.inference(e, scheme=scheme).inner.ends for e in claim.inferred}
             at_print = admitted = self._range(claim, reading, scheme, printed)
@@ -278,7 +241,7 @@ class Judge:
         """
         target = claim.target(convention.rounding)
         function = self.ledger.function(claim, reading=reading, scheme=convention.scheme)
-        box = self.box(claim, convention)
+        box = self.inputs_as_rounded(claim, convention)
         ends = enclose(function, box).ends
         if target.excludes(*ends):
             return Judgement(convention, Verdict.NOT_REPRODUCED, ends)
@@ -302,7 +265,7 @@ class Judge:
         (name,) = source.claims
         return self.inference(name).admits(source.value, source.interval)
 
-    def _sources(self, name: str) -> list[r.SourceRecord]:
+    def _sources(self, name: str) -> list[Comparison]:
         """Return the public sources for a claim or an inferred input, each compared with it."""
         records = []
         for source in self.ledger.sources_of(name):
@@ -310,12 +273,11 @@ class Judge:
                 admission = self.admission(source)
                 matches, outcome = admission is Admission.ADMITTED, f"is {admission.value}"
             else:
-                matches = self.ledger.claims[name].target().meets(source.interval)
-                outcome = "agrees" if matches else "differs"
-            records.append(r.filled(r.SourceRecord, source, agrees=matches, outcome=outcome))
+                matches, outcome = _compare(self.ledger.claims[name], source)
+            records.append(Comparison(source, matches, outcome))
         return records
 
-    def _shown(self, chosen: Claim) -> Shown | None:
+    def _confirmed_range(self, chosen: Claim) -> ConfirmedRange | None:
         """Return the range around a chosen number for which the claims that confirm it agree.
 
         Its ends are found by bisection, in doubles. It is None if no claim confirms the number, or
@@ -330,7 +292,7 @@ class Judge:
                 middle = (good + bad) / 2
                 good, bad = (middle, bad) if self.is_confirmed(chosen, middle) else (good, middle)
             ends.append(float(good / chosen.si))
-        return Shown(claims=list(chosen.shown_by), interval=(ends[0], ends[1]), unit=chosen.unit)
+        return ConfirmedRange(chosen.shown_by, (ends[0], ends[1]), chosen.unit)
 
     def is_confirmed(self, chosen: Claim, value: Fraction) -> bool:
         """Return whether all claims that confirm a number agree with this value (SI) of it."""
@@ -344,14 +306,15 @@ class Judge:
         inferred = {entry: self.inference(entry).inner.ends for entry in claim.inferred}
         if not inferred:
             return []
-        idle = enclose(self.ledger.function(claim), {**self.as_printed(claim), **inferred}).idle
+        box = {**self.inputs_as_printed(claim), **inferred}
+        idle = enclose(self.ledger.function(claim), box).idle
         return [entry for entry in claim.inferred if entry not in idle]
 
-    def as_printed(self, claim: Claim) -> Box:
+    def inputs_as_printed(self, claim: Claim) -> Box:
         """Return the inputs of a claim as printed or, where they are inferred, as assumed."""
         return {entry: (self.value(entry),) * 2 for entry in claim.entries}
 
-    def box(self, claim: Claim, convention: Convention) -> Box:
+    def inputs_as_rounded(self, claim: Claim, convention: Convention) -> Box:
         """Return the ranges of a claim's inputs, each as `rounded` has it."""
         return {entry: self.rounded(entry, convention).ends for entry in claim.entries}
 
@@ -447,20 +410,6 @@ def disagreeing(ledger: Ledger, names: Iterable[str], changed: Values) -> set[st
 # Equations, and the constants in them
 
 
-class EquationAssessment(msgspec.Struct, frozen=True):
-    """The verdict on an equation, the checks behind it, and the verdicts on its constants."""
-
-    equation: Equation
-    verdict: Verdict
-    checks: tuple[Check, ...]
-    constants: Mapping[str, ConstantRecord]
-
-    @property
-    def factor(self) -> Fraction | None:
-        """The printed over the derived side; None unless they differ by a constant factor."""
-        return next((check.factor for check in self.checks if check.factor is not None), None)
-
-
 def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> EquationAssessment:
     """Return the verdict on an equation and, if `constants`, on the constants in it.
 
@@ -506,12 +455,12 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
         yield Check(f"{says}: {error}", holds=False)
 
 
-def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantRecord]:
+def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, JudgedConstant]:
     """Judge each constant of an equation by the values in its place that pass every check.
 
     It is reproduced if only the printed value does, not reproduced if only other values do. In a
-    definition or a repeated equation the printed value is consistent instead. In an equation that is
-    taken over it is not checkable if only the quoted law itself decides it.
+    definition or a repeated equation the printed value is consistent instead. In an equation that
+    is taken over it is not checkable if only the quoted law itself decides it.
     """
     printed = {claim: ledger.value(claim) for claim in ledger.constants_of(name)}
     kind = ledger.equations[name].kind
@@ -547,7 +496,7 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
             repeats = kind in ("definition", "repeat")
             passed = Verdict.CONSISTENT if repeats else Verdict.REPRODUCED
             verdict = passed if decided else Verdict.NOT_CHECKABLE
-        constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=[*map(str, values)])
+        constants[claim] = JudgedConstant(claim=claim, verdict=verdict, needed=[*map(str, values)])
     return constants
 
 

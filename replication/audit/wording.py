@@ -7,8 +7,17 @@ from reference.ledger import Claim, Ledger
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
 from reference.units import to_si
-from replication.audit.record import ConstantRecord, Shown, SourceRecord, Verdict
-from replication.audit.verdict import Assessment, EquationAssessment, Judge, Judgement, Reading
+from replication.audit.assessment import (
+    Assessment,
+    Comparison,
+    ConfirmedRange,
+    EquationAssessment,
+    JudgedConstant,
+    Judgement,
+    Reading,
+    Verdict,
+)
+from replication.audit.verdict import Judge
 from replication.text import between, number, quantity
 
 REMARK = "A remark, not a number: the figures below help to judge it."
@@ -27,10 +36,14 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
         return constant_explanation(ledger, claim, constant)
     if claim.restates:
         return repetition(ledger, claim, assessed.verdict)
-    if records := judge.sources(claim.id):
-        return sources(ledger, claim, records)
+    if comparisons := judge.sources(claim.id):
+        return sources(ledger, claim, comparisons)
     if claim.shown_by:
-        return fitting(ledger, claim, judge.shown(claim))
+        return fitting(ledger, claim, judge.confirmed_range(claim))
+    if assessed.compared:
+        return assessed.compared
+    if assessed.verdict is Verdict.CONSISTENT:
+        return f"Nothing to compute: {claim.why}."
     return f"Nothing in the report decides it: {claim.why}."
 
 
@@ -67,13 +80,13 @@ def origin(claim: Claim) -> str:
     return f"{why[:1].upper()}{why[1:]}."
 
 
-def fitting(ledger: Ledger, claim: Claim, shown: Shown | None) -> str:
+def fitting(ledger: Ledger, claim: Claim, confirmed: ConfirmedRange | None) -> str:
     """Explain the verdict on a number without a computation by what is computed from it."""
-    if shown is None:
+    if confirmed is None:
         return f"{origin(claim)} What is computed from it does not come out as printed."
-    text = quantity(between(shown.interval, 4, inward=True), shown.unit)
-    titles = "; ".join(map(ledger.title, shown.claims))
-    come = "this comes" if len(shown.claims) == 1 else "these come"
+    text = quantity(between(confirmed.interval, 4, inward=True), confirmed.unit)
+    titles = "; ".join(map(ledger.title, confirmed.claims))
+    come = "this comes" if len(confirmed.claims) == 1 else "these come"
     return f"{origin(claim)} For {text} {come} out as printed: {titles}."
 
 
@@ -107,18 +120,19 @@ def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
 # Conventions
 
 
-def holds(claim: Claim, reading: Reading) -> str:
-    """Say under which conventions the verdict holds, and which would change it."""
+def scope(claim: Claim, reading: Reading) -> str:
+    """Say under which conventions the verdict was tried, and which of them give another one."""
     tried = [judgement.convention for judgement in reading.judgements]
     usual = [c for c in tried if (c.rounding, c.scheme) == (tried[0].rounding, tried[0].scheme)]
     names = {"choices_exact": "the author's choices", "header_exact": "the header of Table A-1"}
     varied = [name for key, name in names.items() if len({getattr(c, key) for c in usual}) > 1]
-    scope = "three ways of rounding"
-    scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
-    scope += ", in both schemes" if claim.by_scheme else ""
+    inputs = f", with {' and '.join(varied)} exact or rounded" if varied else ""
+    where = f"{inputs}{', in both schemes' if claim.by_scheme else ''}"
+    if exceptions := _exceptions(claim, reading):
+        others = f"{reading.verdict} under all others"
+        return f"Three ways of rounding were tried{where}: {exceptions}; {others}."
     subject = "As printed, the" if claim.readings and not reading.name else "The"
-    but = _exceptions(claim, reading)
-    return f"{subject} verdict is the same under {scope}{f', except: {but}' * bool(but)}."
+    return f"{subject} verdict is the same under three ways of rounding{where}."
 
 
 def _exceptions(claim: Claim, reading: Reading) -> str:
@@ -178,16 +192,22 @@ def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
     if printed is None or unambiguous or not values or len(printed.quanta) == 1:
         return []
     taken = "the fewest digits" if claim.kind == "approximation" else "all digits"
+    if claim.computation is None and claim.kind != "approximation":
+        taken = "as many digits as agree with a source"  # a source contradicts it only if none do
     ranges = (printed.interval(quantum=quantum).scaled(claim.si) for quantum in printed.quanta)
     inside = {any(map(range_.meets, values)) for range_ in ranges}
     depends = "depends" if len(inside) > 1 else "does not depend"
     return [f"{taken} of {claim.shown} taken as significant; the verdict {depends} on that"]
 
 
-def sources(ledger: Ledger, claim: Claim, records: Sequence[SourceRecord]) -> str:
+def sources(ledger: Ledger, claim: Claim, comparisons: Sequence[Comparison]) -> str:
     """Explain the verdict on a number that is compared with public sources."""
     agreeing, others = (
-        "; ".join(f"{quantity(s.says, s.unit)} ({s.title})" for s in records if s.agrees is agrees)
+        "; ".join(
+            f"{quantity(c.source.says, c.source.unit)} ({c.source.title})"
+            for c in comparisons
+            if c.agrees is agrees
+        )
         for agrees in (True, False)
     )
     if not agreeing:
@@ -219,7 +239,7 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
     return text
 
 
-def constant_explanation(ledger: Ledger, claim: Claim, constant: ConstantRecord) -> str:
+def constant_explanation(ledger: Ledger, claim: Claim, constant: JudgedConstant) -> str:
     """Explain the verdict on a constant of an equation."""
     equation = ledger.equations[claim.within or ""]
     passes = f"the equation follows from {equation.follows_from}"

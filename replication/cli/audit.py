@@ -6,7 +6,6 @@ import gc
 from replication.cli.options import add_json, add_quiet, path
 from replication.cli.output import may_emphasize, put_json, width
 from replication.reading import one_line
-from replication.text import json_text
 
 HELP = "audit every number the report prints"
 EXAMPLE = "coldspray audit --out audited --exit-code"
@@ -29,9 +28,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Audit, write the files and print a summary; status 1 if a claim fails and --exit-code."""
     if options.schema:
-        from replication.audit.record import schema
+        from replication.report.document import schema_text
 
-        put_json(json_text(schema()))
+        put_json(schema_text())
         return 0
     # The audit makes little garbage; looking for it often would take a tenth of the time.
     gc.set_threshold(1_000_000)

@@ -2,6 +2,7 @@
 
 import argparse
 from difflib import get_close_matches
+from functools import partial
 
 from replication.cli.options import add_json, add_quiet
 from replication.cli.output import may_emphasize, put, width
@@ -44,10 +45,12 @@ def run(options: argparse.Namespace) -> int:
         from replication.audit.audit import Audit
         from replication.audit.findings import findings_on
         from replication.report import proof
+        from replication.report.document import claim_document
 
         audit = Audit(ledger)
-        proven, on_it = audit.claim(claims[options.id]), findings_on(audit, options.id)
-        return put(options, proven, lambda: proof(proven, on_it, ledger, width(), may_emphasize()))
+        proven, on_it = audit.claim(options.id), findings_on(audit, options.id)
+        text = partial(proof, proven, on_it, ledger, width(), may_emphasize())
+        return put(options, claim_document(proven), text)
     similar = ", ".join(get_close_matches(options.id[:80], list(claims), cutoff=0.4))
     hint = f"similar ones: {similar}" if similar else "`coldspray claims` lists them"
     if options.id in ledger.equations:

@@ -8,7 +8,6 @@ import subprocess
 import sys
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import replace
 from multiprocessing import get_all_start_methods
 from pathlib import Path
 from typing import Any
@@ -17,20 +16,17 @@ import dask
 import dask.array
 import numpy as np
 import pandas as pd
-import pint
 import pytest
 import xarray
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kept import calls
 
 import replication
 from reference.scheme import Scheme
-from replication import cases
 from replication.cases import BETA_5
 from replication.models import arrays, crater, depth, estimates, impact, inverse, motion, sheet
 from replication.models.arrays import history, run_many, ufunc
-from replication.models.impact import Impact, InputError
+from replication.models.impact import Impact
 
 CASE = (500.0, 11e-6, 8900.0, 7850.0, 3.5e9)
 FUNCTIONS: dict[str, tuple[float, ...]] = {
@@ -175,14 +171,6 @@ def test_bad_elements_are_named_by_index(name: str) -> None:
             values[place] = bad
             with pytest.raises(ValueError, match=rf"^{argument} is {bad}: it must be a finite"):
                 function(*values)
-
-
-NAMES: dict[str, Any] = {name: getattr(replication, name) for name in replication.__all__}
-NAMES |= {"np": np, "pd": pd, "pint": pint, "xarray": xarray, "dask": dask, "replace": replace}
-NAMES |= vars(cases) | {"pickle": pickle, "InputError": InputError, "case": CASE, "rest": CASE[1:]}
-test_what_calls_give_or_why_they_are_refused = calls(
-    "replication/kept.txt", "Calls from Python", NAMES
-)
 
 
 INPUT = st.one_of(*(st.floats(-p, p).map(lambda power: 10.0**power) for p in (40, 300)))

@@ -6,6 +6,7 @@ from math import cbrt, expm1, log, log1p
 from reference.arithmetic import Arithmetic, Floats, Number
 from reference.enclosure import enclose
 from reference.ledger import Convention
+from replication.audit.assessment import Verdict
 from replication.audit.findings.evidence import (
     above,
     at_least,
@@ -18,7 +19,7 @@ from replication.audit.findings.evidence import (
     proves,
 )
 from replication.audit.inference import DENSITY
-from replication.audit.record import Finding, Verdict
+from replication.audit.record import Finding
 from replication.audit.results import DERIVED, Results, case, exact_ratio
 
 RISE = {
@@ -99,7 +100,7 @@ RESULTS = ("depth-beta-3", "depth-beta-5", "ratio-beta-3", "ratio-beta-5")
 
 def derived_over_printed(audit: Results) -> Fraction:
     """Return the derived over the printed right side of Eq. 16; 0 if that is not one number."""
-    factor = audit.judge.equation("eq16").factor
+    factor = audit.judge.assess_equation("eq16").factor
     return Fraction(0) if factor is None else 1 / factor
 
 
@@ -223,7 +224,7 @@ def equation_16(audit: Results) -> Finding:
     observed = exact("observed-depth-ratio")
     as_printed = {t: audit.computed(f"frank-zook-{t}") for t in ("rha", "stainless")}
     derived = {t: audit.computed(f"frank-zook-{t}", DERIVED) for t in ("rha", "stainless")}
-    (needed,) = audit.judge.equation("eq16").constants["eq16-denominator"].needed
+    (needed,) = audit.judge.assess_equation("eq16").constants["eq16-denominator"].needed
     factor = equals(
         "factor",
         "2",
@@ -374,9 +375,9 @@ def frank_zook_values(audit: Results) -> Finding:
     text, exact, judge = audit.text, audit.exact, audit.judge
     stainless = audit.ledger.claims["frank-zook-stainless"]
     function = audit.ledger.function(stainless, reading=DERIVED)
-    usual = judge.box(stainless, Convention())
+    usual = judge.inputs_as_rounded(stainless, Convention())
     admitted = {
-        **judge.box(stainless, Convention(choices_exact=False)),
+        **judge.inputs_as_rounded(stainless, Convention(choices_exact=False)),
         "a1-initial-velocity": usual["a1-initial-velocity"],
         DENSITY: judge.rounded(DENSITY, Convention(header_exact=True)).ends,
     }

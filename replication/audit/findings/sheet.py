@@ -7,6 +7,7 @@ from reference.enclosure import solve
 from reference.ledger import Convention
 from reference.printed import Rounding
 from reference.scheme import Scheme
+from replication.audit.assessment import Verdict
 from replication.audit.explain import SHEET_BUDGET
 from replication.audit.findings.evidence import (
     at_least,
@@ -19,7 +20,7 @@ from replication.audit.findings.evidence import (
     proves,
 )
 from replication.audit.inference import DENSITY, Admission
-from replication.audit.record import Finding, Verdict
+from replication.audit.record import Finding
 from replication.audit.results import Results, case
 from replication.models import depth, sheet
 

@@ -1,7 +1,8 @@
 """Findings on sentences of the report that contradict each other, or name the wrong thing."""
 
+from replication.audit.assessment import Verdict
 from replication.audit.findings.evidence import concerning, conclude, equals, proves, refutes
-from replication.audit.record import Evidence, Finding, Verdict
+from replication.audit.record import Evidence, Finding
 from replication.audit.results import Results
 
 
