@@ -234,8 +234,8 @@ def rising_resistance(results: Results) -> list[Figure]:
 
 
 REMARKS: dict[str, Callable[[Results], list[Figure]]] = {
-    "profile-consistent": profile_consistent,
     "smaller-faster": smaller_faster,
+    "profile-consistent": profile_consistent,
     "coarse-step-remark": coarse_step,
     "large-difference": large_difference,
     "closest-approach": closest_approach,
