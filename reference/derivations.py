@@ -69,7 +69,7 @@ class SymbolicEquations:
         return result
 
     def slope(
-        self, equation: str, by: str, index: int = -1, **put: RationalFunction | int
+        self, equation: str, by: str, index: int = -1, **put: RationalFunction
     ) -> RationalFunction:
         """Return the derivative of a side by a symbol, after `put` replaces others in it."""
         duals, values = Duals(self.ar), {**self.ar.symbols, **put}

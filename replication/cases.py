@@ -16,8 +16,8 @@ from replication.models.alternatives import (
     FrankZookAsPrinted,
     Rigid,
 )
-from replication.models.impact import Impact
-from replication.reading import advice, quoted, read_numbers, tables_of
+from replication.models.impact import Impact, InputError
+from replication.reading import advice, place, quoted, read_number, read_numbers, tables_of
 
 INPUTS = {
     "velocity": "m/s",
@@ -42,18 +42,43 @@ CASES = {"beta-3": BETA_3, "beta-5": BETA_5}
 def read_case(name: str, file: Path | None, given: Mapping[str, str]) -> Impact:
     """Return the named case with the inputs of the file and then the given ones replaced.
 
-    Inputs are texts such as "11 um" or "1.1e-5". Raises ValueError or OSError.
+    The given inputs are texts of options, such as "11 um" or "1.1e-5", and messages name them so.
+    Raises ValueError or OSError.
 
     >>> read_case("beta-5", None, {"radius": "5 um"}).radius
     5e-06
+    >>> read_case("beta-5", None, {"flow_stress": "0"})
+    Traceback (most recent call last):
+    replication.models.impact.InputError: --flow-stress is 0.0: it must be a finite number \
+greater than zero
     """
     if name not in CASES:
-        raise ValueError(f"there is no case {quoted(name)}: choose one of {', '.join(CASES)}")
+        raise ValueError(f"there is no case {quoted(name)}: {advice(name, CASES)}")
     impact = CASES[name]
     if file is not None:
         with tables_of(file, ["impact"]) as (tables, _):
             impact = changed(impact, read_numbers(tables["impact"], INPUTS))
-    return changed(impact, read_numbers(given, INPUTS))
+    values = {}
+    for key, text in given.items():
+        with place(option(key)):
+            values[key] = read_number(text, INPUTS[key])
+    if "resistance" in given and ("beta" in given or "flow_stress" in given):
+        instead = "--resistance stands instead of --beta and --flow-stress"
+        raise ValueError(f"{instead}: give it or those two, not both")
+    try:
+        return changed(impact, values)
+    except InputError as error:
+        key = "resistance" if error.name == "target resistance" else error.name
+        raise InputError(option(key) if key in given else error.name, error.problem) from error
+
+
+def option(name: str) -> str:
+    """Return the option that gives an input.
+
+    >>> option("flow_stress")
+    '--flow-stress'
+    """
+    return f"--{name.replace('_', '-')}"
 
 
 def changed(impact: Impact, values: Mapping[str, float]) -> Impact:

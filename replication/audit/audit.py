@@ -2,7 +2,7 @@
 
 import sys
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property, partial
@@ -28,17 +28,22 @@ from replication.audit.results import Results
 from replication.text import number, powers_of_ten
 
 
-def audit(ledger: Ledger | None = None) -> r.Record:
-    """Audit every number and equation of the report, or of a ledger with planted misprints."""
-    return Audit(ledger or ledgers.load()).record()
+def audit(
+    ledger: Ledger | None = None, progress: Callable[[Iterable[str]], Iterable[str]] = iter
+) -> r.Record:
+    """Audit every number and equation of the report, or of a ledger with planted misprints.
+
+    `progress` wraps the iteration over the claims' ids, such as in a progress bar.
+    """
+    return Audit(ledger or ledgers.load()).record(progress)
 
 
 class Audit(Results):
     """The audit of one ledger: turns its results into records."""
 
-    def record(self) -> r.Record:
-        """Return the finished audit as data."""
-        claims = [self.claim(name) for name in self.ledger.claims]
+    def record(self, progress: Callable[[Iterable[str]], Iterable[str]] = iter) -> r.Record:
+        """Return the finished audit; `progress` wraps the iteration over the ids of claims."""
+        claims = [self.claim(name) for name in progress(self.ledger.claims)]
         equations = [self.equation(name) for name in self.ledger.equations]
         headline, *others = findings(self)
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}

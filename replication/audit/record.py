@@ -23,6 +23,8 @@ from replication.audit.assessment import (
     Reading,
     Verdict,
 )
+from replication.reading import advice
+from replication.text import with_unit
 
 SCHEMA = "coldspray-audit-2"
 """The name and version of the keys of `audit.json`."""
@@ -139,6 +141,10 @@ class ClaimRecord(_Part, frozen=True):
     repairs: Sequence[Repair]
     slips: Sequence[FittingSlip]
     slips_tried: SlipsTried | None
+
+    def __repr__(self) -> str:
+        """A line; `msgspec.structs.asdict` has all fields."""
+        return f"<claim {self.id}: {with_unit(self.claim.text, self.claim.unit)}, {self.verdict}>"
 
     @property
     def id(self) -> str:
@@ -394,5 +400,20 @@ class Record(_Part, frozen=True):
     provenance: dict[str, Any]
 
     def claim(self, name: str) -> ClaimRecord:
-        """Return the claim with this id. Raises KeyError if there is none."""
-        return {claim.id: claim for claim in self.claims}[name]
+        """Return the claim with this id. Raises KeyError if there is none, and names similar ones.
+
+        >>> from replication.audit.audit import audit
+        >>> audit().claim("depth-beta-5")
+        <claim depth-beta-5: 7.67 um, reproduced>
+        """
+        claims = {claim.id: claim for claim in self.claims}
+        if name not in claims:
+            raise KeyError(f"there is no claim {name!r}; {advice(name, claims, 'see `claims`')}")
+        return claims[name]
+
+    def __repr__(self) -> str:
+        """A line, not the whole: that has some 340,000 characters."""
+        counted = ", ".join(
+            f"{count} {verdict}" for verdict, count in self.summary.items() if count
+        )
+        return f"<audit of {len(self.claims)} entries: {counted}; {len(self.findings)} findings>"

@@ -2,9 +2,10 @@
 
 import argparse
 import gc
+from functools import partial
 
 from replication.cli.options import add_json, add_quiet, path
-from replication.cli.output import may_emphasize, put_json, width
+from replication.cli.output import coloured, may_emphasize, progress, put_json, width
 from replication.reading import one_line
 
 HELP = "audit every number the report prints"
@@ -45,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
     workbook = options.out / "workbook.xlsx"
     if workbook.exists():
         emit.check(workbook, force=options.force)
-    record = audit()
+    record = audit(progress=partial(progress, options, unit=" claims", leave=False))
     beside = {
         "workbook.xlsx": build(record=record).to_bytes(),
         "hard-cases.txt": hard_cases.text(hard_cases.record(1000, seed=1)).encode(),
@@ -55,6 +56,6 @@ def run(options: argparse.Namespace) -> int:
     if options.json:
         put_json(written["audit.json"].decode())
     elif not options.quiet:
-        print(report.summary(record, width(), may_emphasize()), end="\n\n")
-        print(f"Written to {one_line(str(options.out))}/; start with audit.html")
+        print(f"Written to {one_line(str(options.out))}/; start with audit.html", end="\n\n")
+        print(coloured(report.summary(record, width(), may_emphasize())))
     return 1 if options.exit_code and record.counts.failing else 0

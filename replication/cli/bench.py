@@ -4,6 +4,7 @@ import argparse
 import sys
 
 from replication.cli.options import add_csv_and_json, add_quiet, path, whole
+from replication.cli.output import width
 from replication.reading import place, read_number
 
 HELP = "measure speed against error: every method and its peers"
@@ -49,5 +50,5 @@ def run(options: argparse.Namespace) -> int:
     if options.out is not None:
         write(options.out, record)
     form = "json" if options.json else "csv" if options.csv else "txt"
-    sys.stdout.write(texts(record)[f"bench.{form}"])
+    sys.stdout.write(texts(record, width(piped=10_000))[f"bench.{form}"])
     return 0

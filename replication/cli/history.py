@@ -3,9 +3,9 @@
 import argparse
 
 from replication.cases import inputs_of
-from replication.cli.case import add_inputs, case_of
+from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, times, whole
-from replication.cli.output import put
+from replication.cli.output import filled, put
 from replication.text import number, numbers
 
 HELP = "print the exact depth and velocity of a case against time"
@@ -24,14 +24,14 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     wanted.add_argument("--times", metavar="T,...", help='these times, such as "0 ns,5 ns"')
     add_csv_and_json(parser)
     add_quiet(parser)
-    add_inputs(parser)
+    add_inputs(parser, with_sheet=False)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print depth and velocity at the times asked for, and the time of rest."""
     from replication.models.motion import history, stop_time
 
-    case = case_of(options)
+    case, warnings = case_of(options)
     stop = stop_time(**case.motion)
     if options.times is None:
         asked = [stop * (k / (options.points - 1)) for k in range(options.points)]
@@ -45,8 +45,10 @@ def run(options: argparse.Namespace) -> int:
     def text() -> str:
         heads = ("time [ns]", "x [um]", "velocity [m/s]")
         lines = numbers(heads, ((time * 1e9, x * 1e6, v) for time, x, v in table))
-        return "\n".join([*lines, "", f"stop time  {number(stop * 1e9, 8)} ns"])
+        return "\n".join(
+            [filled(in_words(case)), "", *lines, "", f"stop time  {number(stop * 1e9, 8)} ns"]
+        )
 
-    record = {"inputs": inputs_of(case), **lists, "stop_time": stop}
+    record = {"inputs": inputs_of(case), **lists, "stop_time": stop, "warnings": warnings}
     rows = [dict(zip(lists, row, strict=True)) for row in table] if options.csv else []
-    return put(options, record, text, rows)
+    return put(options, record, text, rows, warnings)

@@ -2,11 +2,14 @@
 
 import argparse
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from pathlib import Path
+from typing import TypeVar
 
 from reference.scheme import Scheme
-from replication.reading import place, quoted, read_number
+from replication.reading import advice, place, quoted, read_number
+
+Name = TypeVar("Name", bound=str)
 
 Group = argparse._ActionsContainer
 """What options are added to: a parser, or a group of options in one."""
@@ -32,20 +35,23 @@ def add_quiet(parser: argparse.ArgumentParser, text: str = "no warnings") -> Non
 def add_scheme(parser: argparse.ArgumentParser) -> None:
     """Add --scheme."""
     parser.add_argument(
-        "--scheme", metavar="NAME", default=Scheme.PUBLISHED, type=scheme,
+        "--scheme", metavar="NAME", default=Scheme.PUBLISHED, type=one_of("scheme", Scheme),
         help="drag at the initial velocity of a step: published; at its middle: centered "
         "(default: %(default)s)",
     )  # fmt: skip
 
 
-def scheme(text: str) -> Scheme:
-    """Read the name of a scheme."""
-    try:
-        return Scheme(text)
-    except ValueError:
-        known = ", ".join(Scheme)
-        message = f"there is no scheme {quoted(text)}: choose one of {known}"
-        raise argparse.ArgumentTypeError(message) from None
+def one_of(what: str, known: Iterable[Name]) -> Callable[[str], Name]:
+    """Return a reader of one of the known names; `what` is what they name."""
+    names = {str(name): name for name in known}
+
+    def read(text: str) -> Name:
+        if text not in names:
+            hint = advice(text, names)
+            raise argparse.ArgumentTypeError(f"there is no {what} {quoted(text)}: {hint}")
+        return names[text]
+
+    return read
 
 
 def path(text: str) -> Path:

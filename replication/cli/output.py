@@ -8,6 +8,7 @@ import re
 import shutil
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from textwrap import fill
 from typing import Any
 
 from replication.reading import one_line
@@ -20,11 +21,13 @@ def put(
     text: Callable[[], str],
     rows: Sequence[Mapping[str, Any]] = (),
     warnings: Iterable[object] = (),
+    notes: Iterable[str] = (),
     quietly: bool = False,
 ) -> int:
     """Print a command's result as JSON, rows of CSV or text, as asked for, and return status 0.
 
-    Warnings go to standard error, unless `--quiet` is given; for JSON the record contains them.
+    Warnings, of what is not as expected, go to standard error; notes, of what is, stand below the
+    text. `--quiet` suppresses both; for JSON the record contains them.
     quietly: the text only reports what was done, so `--quiet` suppresses it, too.
     """
     if options.json:
@@ -34,6 +37,8 @@ def put(
         sys.stdout.write(rows_csv(rows))
     elif not (quietly and options.quiet):
         print(text())
+        for note in () if options.quiet else notes:
+            print(filled(f"note: {note}", hanging="  "))
     for warning in () if options.quiet else warnings:
         print(one_line(f"coldspray {options.command}: warning: {warning}"), file=sys.stderr)
     return 0
@@ -47,15 +52,55 @@ def put_json(text: str) -> None:
     sys.stdout.write(text)
 
 
+def is_terminal() -> bool:
+    """Return whether stdout is a terminal."""
+    return sys.stdout.isatty()
+
+
 def width(piped: int = 80) -> int:
     """Return the number of columns of the terminal, or `piped` if stdout is not a terminal."""
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else piped
+    return shutil.get_terminal_size().columns if is_terminal() else piped
+
+
+def filled(text: str, indent: str = "", hanging: str = "") -> str:
+    """Wrap a text to the terminal, but to lines of at most 100 characters, which one can read.
+
+    indent and hanging: blanks before the first line, and before the others.
+    """
+    return fill(
+        text, min(width(), 100), initial_indent=indent, subsequent_indent=hanging,
+        break_on_hyphens=False, break_long_words=False,
+    )  # fmt: skip
 
 
 def may_emphasize() -> bool:
     """Return whether bold text may be printed: on a capable terminal, without NO_COLOR."""
-    is_capable = sys.stdout.isatty() and os.environ.get("TERM") != "dumb"
+    is_capable = is_terminal() and os.environ.get("TERM") != "dumb"
     return is_capable and not os.environ.get("NO_COLOR")
+
+
+_GREEN, _YELLOW, _RED = "\x1b[32m", "\x1b[33m", "\x1b[31m"
+_COLOURS = {
+    "reproduced": _GREEN,
+    "consistent": _GREEN,
+    "agrees with public sources": _GREEN,
+    "reproduced within input rounding": _YELLOW,
+    "undecided": _YELLOW,
+    "differs from public sources": _YELLOW,
+    "not reproduced": _RED,
+    "inconsistent": _RED,
+}
+"""The verdicts that have a colour."""
+
+_VERDICT = re.compile(rf"(?m)(?<=  |: |\d )({'|'.join(_COLOURS)})$")
+"""A verdict that ends a line, after a colon, a count or the blanks between two columns."""
+
+
+def coloured(text: str) -> str:
+    """Colour each verdict that ends a line, if the terminal may be written to in colour."""
+    if not may_emphasize():
+        return text
+    return _VERDICT.sub(lambda match: f"{_COLOURS[match[0]]}{match[0]}\x1b[0m", text)
 
 
 def progress(options: argparse.Namespace, items: Any = None, **settings: Any) -> Any:

@@ -103,8 +103,8 @@ def parse(commands: Mapping[str, Command], arguments: Sequence[str]) -> argparse
     for argument in arguments:
         if _DASHES.fullmatch(argument):
             parser.error(f"{quoted(argument)}: two dashes are not a value")
-    if arguments[0] not in commands and not arguments[0].startswith("-"):
-        first = arguments[0]
+    first = arguments[0]
+    if first not in commands and (first == "--" or not first.startswith("-")):
         parser.error(f"there is no command {quoted(first)}: {advice(first, commands)}")
     options, unknown = parser.parse_known_args(arguments)
     if unknown:  # refer to the help of the command, not of `coldspray`

@@ -4,8 +4,8 @@ import argparse
 from functools import partial
 
 from replication.cli.options import add_json, add_quiet, whole
-from replication.cli.output import progress, put
-from replication.text import aligned
+from replication.cli.output import progress, put, width
+from replication.text import table_text
 
 HELP = "plant misprints in memory and measure what the audit notices"
 EXAMPLE = "coldspray power --sample 20 --seed 7"
@@ -36,7 +36,7 @@ def run(options: argparse.Namespace) -> int:
         f"{result.planted} misprints, planted one at a time; {result.invisible} cannot be noticed,",
         "as all numbers that the audit relates still agree. Of the others, in percent:",
         "",
-        *aligned([table.heads, *table.rows]),
+        table_text(table, width(piped=10_000)),
     ]
     if result.unnoticed:
         lines += ["", "Visible, and not noticed:"]

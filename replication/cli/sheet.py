@@ -3,9 +3,9 @@
 import argparse
 
 from replication.cases import inputs_of
-from replication.cli.case import add_inputs, case_of
+from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme
-from replication.cli.output import put
+from replication.cli.output import filled, put
 from replication.models.sheet import Sheet
 from replication.text import number, numbers
 
@@ -22,22 +22,26 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the rows of the sheet, and the results that the report reads from the last one."""
-    from replication.error import warnings
+    from replication import error
     from replication.models import sheet
 
-    result = sheet.run(case_of(options), options.scheme)
+    case, warnings = case_of(options)
+    result = sheet.run(case, options.scheme)
     rows = [row._asdict() for row in result.rows] if options.json or options.csv else []
-    doubts = list(warnings(result).values())
+    doubts = error.warnings(result)
+    notes = [words for kind, words in doubts.items() if kind in error.NOTES]
+    warnings += [words for kind, words in doubts.items() if kind not in error.NOTES]
     record = {
-        "inputs": inputs_of(result.impact),
+        "inputs": inputs_of(case),
         "scheme": result.scheme,
         "rows": rows,
         "final_depth": result.final_depth,
         "normalized_depth": result.normalized_depth,
         "steps": result.steps,
-        "warnings": doubts,
+        "warnings": warnings,
+        "notes": notes,
     }
-    return put(options, record, lambda: _text(result), rows, doubts)
+    return put(options, record, lambda: _text(result), rows, warnings, notes)
 
 
 def _text(sheet: Sheet) -> str:
@@ -49,4 +53,5 @@ def _text(sheet: Sheet) -> str:
         f"normalized depth  {number(sheet.normalized_depth, 8)}\n"
         f"steps             {sheet.steps}"
     )
-    return "\n".join([*numbers(heads, table), "", results])
+    case = filled(in_words(sheet.impact, step=True, stop=True))
+    return "\n".join([case, "", *numbers(heads, table), "", results])

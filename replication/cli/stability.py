@@ -3,7 +3,7 @@
 import argparse
 
 from replication.cli.options import add_json, add_quiet, whole
-from replication.cli.output import put
+from replication.cli.output import put, width
 
 HELP = "run the hard cases by sheet, closed form and reference"
 EXAMPLE = "coldspray stability --random 1000 --seed 2"
@@ -19,7 +19,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="seed of the random numbers (default: %(default)s)",
     )  # fmt: skip
     add_json(parser)
-    add_quiet(parser)
+    add_quiet(parser, argparse.SUPPRESS)  # accepted everywhere; here nothing would be left out
 
 
 def run(options: argparse.Namespace) -> int:
@@ -27,4 +27,4 @@ def run(options: argparse.Namespace) -> int:
     from replication.error import hard_cases
 
     record = hard_cases.record(options.random, options.seed)
-    return put(options, record, lambda: hard_cases.text(record))
+    return put(options, record, lambda: hard_cases.text(record, width(piped=10_000)))

@@ -51,24 +51,25 @@ def run(options: argparse.Namespace) -> int:
     emit.check(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
         raise ValueError(f"{options.output}: a workbook's name ends in .xlsx")
-    case = case_of(options) if is_given(options) else None
+    case, warnings = case_of(options) if is_given(options) else (None, list[str]())
     book = workbook.build(case, options.scheme, options.rows)
     write_bytes(options.output, book.to_bytes())
     checks = [
         verify(options.output, book.plan, book.cells, engine, long_doubles=book.rounding)
         for engine in (engines.ENGINES if options.verify else ())
     ]
+    warnings += book.warnings
     passed = all(check.passed for check in checks)
     record = {
         "file": str(options.output),
         "passed": passed if options.verify else None,
         "long_double_bound": book.rounding,
         "engines": checks,
-        "warnings": book.warnings,
+        "warnings": warnings,
     }
     verified = ["", *_verified(checks, book.rounding)] if checks else []
     text = "\n".join([f"Written: {one_line(str(options.output))}", *verified])
-    put(options, record, lambda: text, warnings=book.warnings, quietly=True)
+    put(options, record, lambda: text, warnings=warnings, quietly=True)
     return 0 if passed else 1
 
 

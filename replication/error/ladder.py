@@ -14,7 +14,6 @@ from replication.error import warnings
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.models.sheet import MAX_STEPS, Sheet, run
-from replication.text import aligned, number
 
 Budget = dict[str, float | None]
 Level = dict[str, Any]
@@ -117,7 +116,7 @@ def converge(
 
 
 def _level(sheet: Sheet, coarse: Level | None) -> Level:
-    step, (error, budget) = sheet.impact.step, split(sheet)
+    step, (error, budget), doubts = sheet.impact.step, split(sheet), warnings(sheet)
     order = time_step_order = None
     if coarse:
         pair = coarse["steps"], coarse["step"] / step
@@ -129,7 +128,8 @@ def _level(sheet: Sheet, coarse: Level | None) -> Level:
         "depth": sheet.final_depth,
         "error": error,
         "budget": budget,
-        "warnings": list(warnings(sheet).values()),
+        "warnings": list(doubts.values()),
+        "warned_of": list(doubts),
         "order": order,
         "time_step_order": time_step_order,
         "regime": regime(error, budget, time_step_order, sheet.scheme.order),
@@ -251,77 +251,3 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = Scheme.PUBLISHED)
         "error": sheet.final_depth - rest,
         "fails": fails,
     }
-
-
-# The text of the command
-
-_WHY = {
-    "published": (
-        "The published scheme is first order: it takes a row's deceleration at the middle depth,\n"
-        "but at the initial velocity, and drag depends on velocity."
-    ),
-    "centered": (
-        "The centered scheme is second order: it takes a row's deceleration at the middle depth\n"
-        "and at the middle velocity."
-    ),
-}
-
-
-_PARTS_IN_WORDS = """\
-The error is the sum of four parts: time step, the scheme against the exact depth at the velocity
-of the last row; stop rule, that depth against the one at rest; half step, by which x stands behind
-that velocity, -v dt/2; and rounding."""
-
-
-def _um(length: float | None, digits: int) -> str:
-    return "-" if length is None else number(length * 1e6, digits)
-
-
-def _table(levels: Sequence[Level]) -> list[str]:
-    rows: list[tuple[str, ...]] = [
-        ("step", "steps", "depth", "error", "order", "time step", "order", "stop rule", "half step",
-         "rounding", "governed by"),
-        ("[ns]", "", "[um]", "[um]", "", "[um]", "", "[um]", "[um]", "[um]", ""),
-    ]  # fmt: skip
-    for level in levels:
-        budget, orders = level["budget"], (level["order"], level["time_step_order"])
-        order, time_step_order = ("-" if x is None else f"{x:.2f}" for x in orders)
-        rows.append((
-            number(level["step"] * 1e9, 5), str(level["steps"]), _um(level["depth"], 7),
-            _um(level["error"], 3), order, _um(budget["time_step"], 3), time_step_order,
-            _um(budget["stop_rule"], 3), _um(budget["half_step"], 3), _um(budget["rounding"], 2),
-            level["regime"],
-        ))  # fmt: skip
-    return aligned(rows)
-
-
-def text(result: dict[str, Any]) -> str:
-    """Return the ladder as a table, its limit, and where each part of the error comes from."""
-    limit = result["limit_undefined"] or (
-        f"{_um(result['limit'], 8)} um, observed order {result['observed_order']:.2f}, "
-        f"grid convergence index {100 * result['gci']:.2g} %"
-    )
-    order = result["nominal_order"]
-    if result["limit"] and abs(result["observed_order"] - order) > 0.1 * order:
-        limit += " (no bound: the order is not the scheme's)"
-    regimes = {level["regime"] for level in result["levels"]}
-    lines = [
-        *_table(result["levels"]),
-        "",
-        f"exact, at rest            {_um(result['exact'], 10)} um",
-        f"exact, at stop velocity   {_um(result['exact_at_stop'], 10)} um",
-        f"limit of the last three   {limit}",
-        _PARTS_IN_WORDS,
-        _WHY[result["scheme"]],
-        "What governs an error:",
-        *(f"  {name}: {means}" for name, means in GOVERNED_BY.items() if name in regimes),
-    ]
-    if met := result["digits"]:
-        digits = "1 correct digit" if met["digits"] == 1 else f"{met['digits']} correct digits"
-        lines.append(
-            f"{digits}: {number(met['step'] * 1e9, 5)} ns ({met['steps']} steps, "
-            f"error {_um(met['error'], 3)} um) and its halvings; "
-            f"{number(met['fails'] * 1e9, 5)} ns fails.\n"
-            "Steps between them may do better or worse: where the last row falls is an accident."
-        )
-    return "\n".join(lines)

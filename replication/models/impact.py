@@ -32,7 +32,7 @@ class InputError(ValueError):
         return f"{self.name}{place} {self.problem}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Impact:
     """One case of section 3 and the appendix: all inputs of the spreadsheet.
 
@@ -77,6 +77,12 @@ class Impact:
             object.__setattr__(self, name, inputs[name])
         check(inputs)
         check_range(**self.motion, step=self.step)
+
+    def __repr__(self) -> str:
+        """The call that makes this case: without what is not given, or is the report's."""
+        given = {field.name: getattr(self, field.name) for field in fields(self)
+                 if getattr(self, field.name) != field.default}  # fmt: skip
+        return f"Impact({', '.join(f'{name}={value!r}' for name, value in given.items())})"
 
     @property
     def target_resistance(self) -> float:

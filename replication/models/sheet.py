@@ -8,9 +8,10 @@ same double in every cell. Squares and cubes are written as products (`x * x`, n
 row's time is `k * dt`, not a running sum.
 """
 
+import html
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from reference.scheme import Scheme
@@ -38,13 +39,33 @@ class Row(NamedTuple):
     velocity_final: float | None
 
 
-@dataclass(frozen=True, slots=True)
+UNITS = {
+    "time": "s",
+    "velocity_initial": "m/s",
+    "depth": "m",
+    "deceleration": "m/s^2",
+    "velocity_final": "m/s",
+}
+"""The SI unit of each field of a row."""
+
+
+@dataclass(frozen=True, slots=True, repr=False)
 class Sheet:
     """The rows of one case, and the results that the report reads from the last one."""
 
     impact: Impact
-    rows: tuple[Row, ...] = field(repr=False)  # up to a million
+    rows: tuple[Row, ...]  # up to a million
     scheme: Scheme = Scheme.PUBLISHED
+
+    def __repr__(self) -> str:
+        depth = f"{self.final_depth * 1e6:.6g} um, X/R {self.normalized_depth:.6g}"
+        return f"<{self.scheme} sheet, {self.steps} steps of {self.impact.step:g} s: {depth}>"
+
+    def _repr_html_(self) -> str:
+        """The sheet as notebooks show it: its first and last rows, with units."""
+        heads = [f"{name} [{unit}]" for name, unit in UNITS.items()]
+        table = self.frame().set_axis(heads, axis="columns").to_html(max_rows=12)
+        return f"<p>{html.escape(repr(self)[1:-1])}</p>{table}"
 
     @property
     def steps(self) -> int:

@@ -17,7 +17,15 @@ from replication.report.arrangement import Arrangement
 from replication.report.document import audit_document
 from replication.report.figures import draw
 from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
-from replication.text import Table, columns, json_text, number, quantity, rows_csv
+from replication.text import (
+    Table,
+    columns,
+    json_text,
+    number,
+    quantity,
+    rows_csv,
+    table_text,
+)
 
 FILES = (
     "audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt", "workbook.xlsx",
@@ -112,7 +120,7 @@ FINDINGS = 3
 
 
 def summary(record: Record, width: int, strong: bool = False) -> str:
-    """Write the audit on one screen: headline, counts, what fails, main results, findings."""
+    """Write the audit on one screen: counts, what fails, main results, findings, the headline."""
     main = [
         (c.claim.title, words.with_unit(c.claim), words.measured(c.computed, c.claim.unit),
          c.verdict)
@@ -201,6 +209,12 @@ def _on_terminal(
     def in_columns(rows: Sequence[tuple[str, ...]]) -> str:
         return columns([tuple(map(prose, row)) for row in rows], width)
 
+    def grid(table: Table) -> str:
+        heads, *rows = (tuple(map(prose, row)) for row in (table.heads, *table.rows))
+        return table_text(Table("", heads, rows), width)
+
     bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
-    helpers = {"fill": wrapped, "columns": in_columns, "strong": bold.format}
+    helpers = {
+        "fill": wrapped, "columns": in_columns, "table_text": grid, "strong": bold.format,
+    }  # fmt: skip
     return _from_template(name, prose, {**parts, **helpers}).rstrip("\n")

@@ -22,6 +22,7 @@ from reference.enclosure import Ends
 from reference.ledger import Convention
 from replication.audit.assessment import Comparison, Judgement, Reading
 from replication.audit.record import ClaimRecord, EquationRecord, InferredRecord, Record
+from spreadsheets.sheets import cells_of_claims
 
 Document = dict[str, Any]
 """A JSON object."""
@@ -107,7 +108,7 @@ def claim_document(record: ClaimRecord) -> Document:
         "slips": to_builtins(record.slips),
         "slips_tried": to_builtins(record.slips_tried),
         "standing": to_builtins(record.assessment.standing),
-        "workbook": claim.workbook,
+        "workbook": cells_of_claims().get(claim.id),
     }
 
 

@@ -16,6 +16,7 @@ from replication.audit.comparison import SHARES
 from replication.report.prose import Named, quoted
 from replication.report.words import measured, shown_range, with_unit
 from replication.text import Table, between, number, quantity, rounded
+from spreadsheets.sheets import cells_of_claims
 
 NO_VALUE = "no value"
 """Shown for a quantity that cannot be computed from misprinted inputs."""
@@ -30,6 +31,7 @@ def facts(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, 
         for entries in claim.inputs.values()
     )
     others = zip(record.assessment.readings[1:], record.scopes[1:], strict=True)
+    cell = cells_of_claims().get(claim.id)
     texts = {
         "rounds to it": is_number and quantity(str(claim.interval()).replace("E", "e"), claim.unit),
         "computed": measured(record.computed, claim.unit, 10),
@@ -44,7 +46,7 @@ def facts(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, 
         "assumed": "; ".join(record.assumes),
         "would still agree": record.confirmed_range and _still_agrees(record.confirmed_range),
         "public sources": "; ".join(map(_source, record.sources)),
-        "workbook cell": claim.workbook and f"`{claim.workbook}`",
+        "workbook cell": cell and f"`{cell}`",
     }
     return [(label, text.removesuffix(".")) for label, text in texts.items() if text]
 

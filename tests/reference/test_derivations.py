@@ -79,7 +79,7 @@ def test_sides_slopes_and_numbers_of_an_equation(symbolic: SymbolicEquations) ->
     assert symbolic.tried("eq1", m=4.0) == 0.5
 
 
-def test_the_factor_between_two_sides_is_given_where_it_is_constant(
+def test_two_sides_may_differ_by_a_constant_factor(
     symbolic: SymbolicEquations,
 ) -> None:
     s = symbolic.symbols

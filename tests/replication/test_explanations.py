@@ -224,7 +224,7 @@ def test_equation(name: str) -> None:
     assert checks or name == "eq8"
 
 
-# Planted misprints; `said.txt` has the rates of a small sample
+# Planted misprints; `printed/power-60.txt` has the rates of a small sample
 
 EVERYTHING = list(plants(LEDGER))
 TRUTH = Audit(LEDGER, every_convention=False)

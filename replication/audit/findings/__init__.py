@@ -3,7 +3,7 @@
 Each finding is one function, in the file of its subject. It computes the numbers in its text anew
 from the ledger, the verdicts and the models, and returns a `Finding`; `evidence` has the parts.
 `FINDINGS` has them in the order of what they change for a reader. The first, the headline, is the
-sentence with which every output begins.
+sentence with which files begin and the text on a terminal ends.
 
 To add one: write its function, name with `@concerning` the claims that it is about, and put it into
 FINDINGS. The tests ask that all of its numbers hold for the report, and that its claims exist.

@@ -106,7 +106,7 @@ def derived_over_printed(audit: Results) -> Fraction:
 
 @concerning("frank-zook-rha", "frank-zook-stainless", "eq16")
 def headline(audit: Results) -> Finding:
-    """The sentence with which every output begins."""
+    """The sentence with which files begin and the text on a terminal ends."""
     factor = equals(
         "factor",
         "2",
