@@ -163,7 +163,10 @@ class Judge:
             is_met = self.confirmed_range(claim) is not None
             return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
         if claim.id in CROSS_CHECKS:
-            checked = CROSS_CHECKS[claim.id](self.ledger)
+            try:
+                checked = CROSS_CHECKS[claim.id](self.ledger)
+            except (ArithmeticError, ValueError) as error:  # an input has no meaning
+                return Assessment(Verdict.INCONSISTENT, no_value=str(error))
             return Assessment(checked.verdict, compared=checked.says)
         if claim.given == "definition":
             return Assessment(Verdict.CONSISTENT)

@@ -128,11 +128,11 @@ def scope(claim: Claim, reading: Reading) -> str:
     varied = [name for key, name in names.items() if len({getattr(c, key) for c in usual}) > 1]
     inputs = f", with {' and '.join(varied)} exact or rounded" if varied else ""
     where = f"{inputs}{', in both schemes' if claim.by_scheme else ''}"
-    if exceptions := _exceptions(claim, reading):
-        others = f"{reading.verdict} under all others"
-        return f"Three ways of rounding were tried{where}: {exceptions}; {others}."
     subject = "As printed, the" if claim.readings and not reading.name else "The"
-    return f"{subject} verdict is the same under three ways of rounding{where}."
+    holds = f"{subject} verdict holds under three ways of rounding{where}"
+    if exceptions := _exceptions(claim, reading):
+        return f"{holds}, with these exceptions: {exceptions}."
+    return f"{holds}."
 
 
 def _exceptions(claim: Claim, reading: Reading) -> str:
@@ -146,9 +146,10 @@ def _exceptions(claim: Claim, reading: Reading) -> str:
     for verdict, conditions in exceptions.items():
         # A condition that includes a weaker one adds nothing.
         kept = dict.fromkeys(c for c in conditions if not any(set(o) < set(c) for o in conditions))
-        parts.append(f"{verdict} if {', or if '.join(map(' and '.join, kept))}")
+        conditions_met = ", or if ".join(map(" and ".join, kept))
+        parts.append(f'if {conditions_met}, it becomes "{verdict}"')
     # The evidence for its inferred inputs is rounded to nearest under every convention.
-    return ", and ".join(parts).format(cut_off="of this number alone " if claim.inferred else "")
+    return "; ".join(parts).format(cut_off="of this number alone " if claim.inferred else "")
 
 
 _UNUSUAL = (

@@ -108,6 +108,7 @@ def claim_document(record: ClaimRecord) -> Document:
         "slips": to_builtins(record.slips),
         "slips_tried": to_builtins(record.slips_tried),
         "standing": to_builtins(record.assessment.standing),
+        "compared": record.assessment.compared,
         "workbook": cells_of_claims().get(claim.id),
     }
 

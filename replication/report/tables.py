@@ -73,6 +73,23 @@ def _values(values: Mapping[str, Fraction]) -> str:
     return ", ".join(f"`{name}` {number(value, 10)}" for name, value in values.items())
 
 
+MAIN = (
+    "depth-beta-3", "depth-beta-5", "ratio-beta-5", "observed-depth-ratio", "goodier-beta",
+    "walker-anderson-beta",
+)  # fmt: skip
+"""The ids of the report's main results."""
+
+
+def main(record: r.Record) -> Table:
+    """Return the report's main results, as printed and as computed."""
+    rows = [
+        (c.claim.title, with_unit(c.claim), measured(c.computed, c.claim.unit), c.verdict)
+        for c in record.claims
+        if c.id in MAIN and c.computed is not None
+    ]
+    return Table("Main results", ("number", "printed", "computed", "verdict"), rows)
+
+
 def not_as_printed(record: r.Record) -> Table:
     """Return what is printed and what follows instead, for each claim that fails or is undecided.
 

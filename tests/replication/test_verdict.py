@@ -310,11 +310,15 @@ def test_with_two_wrong_constants_none_can_be_accused() -> None:
 # Sentences
 
 
-def test_no_sentence_says_that_a_verdict_is_the_same_and_where_it_is_not(record: Record) -> None:
+def test_a_sentence_says_under_which_conventions_a_verdict_becomes_another(
+    record: Record,
+) -> None:
     for judged in record.claims:
         for reading, scope in zip(judged.assessment.readings, judged.scopes, strict=True):
-            assert ("the same" in scope.lower()) == (not reading.otherwise), judged.id
-            assert (f"{reading.verdict} under all others." in scope) == bool(reading.otherwise)
+            assert " holds under three ways of rounding" in scope
+            assert ("it becomes" in scope) == bool(reading.otherwise), judged.id
+            for judgement in reading.otherwise:
+                assert f'it becomes "{judgement.verdict}"' in scope
 
 
 # What a reproduced number tells

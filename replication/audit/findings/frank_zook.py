@@ -137,9 +137,10 @@ def headline(audit: Results) -> Finding:
         "headline",
         "headline",
         title="What the audit found",
-        statement="With the target density that Table A-1 implies, the model's own numbers "
-        "reproduce to the last printed digit; the two Frank-Zook values do not and cannot both be "
-        f"right; Eq. 16 as printed is too small by a factor of {factor}.",
+        statement="With a target density inferred from eight cells of Table A-1, and the sphere's "
+        "mass for the printed one, the model's own numbers reproduce to the last printed digit; "
+        "the two Frank-Zook values do not and, computed at one velocity, cannot both be right; "
+        f"Eq. 16 as printed is too small by a factor of {factor}.",
         status="explained",
         evidence=evidence,
     )
@@ -625,8 +626,8 @@ def sphere_equivalent(audit: Results) -> Finding:
     text, exact = audit.text, audit.exact
     around = "circumscribed-length-ratio"
     R_armor, R_steel = exact("fz-resistance-rha"), exact("fz-resistance-stainless")
-    # A cylinder with L = D_c has the sphere's mass if (pi/4) D_c^3 = (pi/6) D^3. Eq. 16 then gives
-    # X/D_c with its L/D, and X/R = 2 (X/D_c) (D_c/D).
+    # A cylinder with L = d has the sphere's mass if (pi/4) d^3 = (pi/6) D^3. Eq. 16 then gives
+    # X/d with its L/D, and X/R = 2 (X/d) (d/D).
     narrower = cbrt(2 / 3)
     ratio = equals(
         "ratio", "2/3", exact("sphere-length-ratio") / exact(around), "1",
@@ -671,7 +672,7 @@ def sphere_equivalent(audit: Results) -> Finding:
         f"the sphere has {heavier} times its mass and gives {long_rha} and {long_stainless}. None "
         "of the four is printed.",
         by_hand=f"(pi/6) D^3 = (pi/4) D^2 L gives L/D = 4/6 = {steps[0]}; (pi/6) D^3 = (pi/4) "
-        f"D_c^3 gives D_c/D = (4/6)^(1/3) = {steps[1]}.",
+        f"d^3 gives d/D = (4/6)^(1/3) = {steps[1]}.",
         settle="Nothing is open.",
         status="explained",
         evidence=(
