@@ -100,14 +100,20 @@ def test_times_are_those_of_the_whole_table() -> None:
 
 @pytest.mark.parametrize(
     "document",
-    ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/check.md", "docs/sweeps/README.md"],
-)
+    ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/check.md", "docs/design.md",
+     "docs/sweeps/README.md"],
+)  # fmt: skip
 def test_links_and_paths_lead_somewhere(document: str) -> None:
     text = (ROOT / document).read_text("utf-8")
     for target in re.findall(r"\]\((?!https?:|#)([^)]+)\)", text):
         assert ((ROOT / document).parent / target).exists(), target
     for path in re.findall(r"`((?:reference|replication|spreadsheets|tests)/[\w/.]*)`", text):
         assert (ROOT / path).exists(), path
+
+
+def test_the_samples_of_the_design_give_what_they_say() -> None:
+    failed, tried = doctest.testfile(str(ROOT / "docs" / "design.md"), module_relative=False)
+    assert (failed, tried > 5) == (0, True)
 
 
 # The program that checks an audit by its file alone
