@@ -5,8 +5,8 @@ arithmetic (`evaluate`), checked for consistent dimensions (`dimension`), and sh
 MathML (`rendered`), so that all of this is done with what the report prints.
 
 A product written without a space binds more tightly than a fraction bar; one written with a space,
-or with a sign of multiplication, binds as tightly as the bar, from left to right. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is
-(1/3) pi X^2, and "L/D \rho_p/\rho_t" is ((L/D) rho_p)/rho_t.
+or with a sign of multiplication, binds as tightly as the bar, from left to right. So "2E_t/3Y_t" is
+(2 E_t)/(3 Y_t), "1/3 \pi X^2" is (1/3) pi X^2, and "L/D \rho_p/\rho_t" is ((L/D) rho_p)/rho_t.
 """
 
 import re

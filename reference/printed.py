@@ -226,7 +226,8 @@ def parse(text: str) -> Printed:
     """Read one printed number. Raises ValueError for any other text.
 
     It may be a decimal ("7.67", "5,575", "8·9", ".278", "5."), have an exponent ("3.11E+08",
-    "9.13 × 10^9", "7.6×10⁹") or a percent sign ("16 %" is 0.16). Either minus sign is read. Powers of ten ("10^7"), fractions ("7/3") and number words ("three") are read as exact. A
+    "9.13 × 10^9", "7.6×10⁹") or a percent sign ("16 %" is 0.16). Either minus sign is read.
+    Powers of ten ("10^7"), fractions ("7/3") and number words ("three") are read as exact. A
     leading "~" is ignored, as the kind of such a claim says that it is an approximation.
 
     >>> parse("3.11E+08").interval().upper

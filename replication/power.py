@@ -36,10 +36,10 @@ class Plant(NamedTuple):
 class Counts(msgspec.Struct, kw_only=True):
     """How many misprints were planted, how many of them are visible, and what the audit noticed.
 
-    `controls` and `false_alarms`: how many harmless rewritings were tried, and how many of them
-    changed a verdict. `detected`: something fails because of the misprint; `accused_wrongly`: the first repair that
+    `detected`: something fails because of the misprint; `accused_wrongly`: the first repair that
     the audit lists changes another entry; `repaired`: the true text is among the listed repairs;
-    `repaired_first`: it is the first of them.
+    `repaired_first`: it is the first of them. `controls` and `false_alarms`: how many harmless
+    rewritings were tried, and how many of them changed a verdict.
     """
 
     planted: int = 0

@@ -15,13 +15,13 @@ from reference.units import superscript
 
 
 def rewritings_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
-    """Yield other texts of a claim or an equation that say the same, with the kind of rewriting.
+    r"""Yield other texts of a claim or an equation that say the same, with the kind of rewriting.
 
     >>> from reference.ledger import load
     >>> [text for text, kind in rewritings_of(load(), "fz-rha-resistance")]
     ['7.6E9', '7.6e+09', '7.6×10⁹', '7.6 x 10^{9}', '7.6·10^9', ' 7.6×10^9 ']
     >>> dict(rewritings_of(load(), "eq7"))["multiplication sign"]
-    'R_t = \\\\beta × Y_t'
+    'R_t = \\beta × Y_t'
     """
     if name in ledger.equations:
         return equation_rewritings(ledger, name)
@@ -40,16 +40,7 @@ def number_rewritings(text: str, *, spaces: bool = True) -> Iterator[tuple[str, 
     >>> [text for text, kind in number_rewritings(r"\frac{1}{2}", spaces=False)]
     ['1/2']
     """
-    if match := re.fullmatch(
-        r"(?P<mantissa>[\d.]+)(?:E| ?(?:×|\\times) ?10\^)(?P<power>[-+]?\d+)", text
-    ):
-        mantissa, power = match["mantissa"], int(match["power"])
-        for other in (
-            f"{mantissa}E{power}", f"{mantissa}e{power:+03d}",
-            f"{mantissa}×10{superscript(str(power))}", f"{mantissa} x 10^{{{power}}}",
-            f"{mantissa}·10^{power}",
-        ):  # fmt: skip
-            yield other, "power of ten"
+    yield from ((other, "power of ten") for other in _powers_of_ten(text))
     if "-" in text and not text[0].isalpha():
         yield text.replace("-", "\N{MINUS SIGN}"), "minus sign"
     if re.fullmatch(r"~? ?0\.\d+", text):
@@ -58,20 +49,37 @@ def number_rewritings(text: str, *, spaces: bool = True) -> Iterator[tuple[str, 
         yield text.replace(".", "·"), "raised point"
     if re.fullmatch(r"\d{4,}", text):
         yield f"{int(text):,}", "thousands"
-    if match := re.fullmatch(r"(\d+)/(\d+)", text):
-        yield rf"\frac{{{match[1]}}}{{{match[2]}}}", "fraction"
-    if match := re.fullmatch(r"\\frac\{(\d+)\}\{(\d+)\}", text):
-        yield f"{match[1]}/{match[2]}", "fraction"
+    yield from ((other, "fraction") for other in _fractions(text))
     if text[0].isalpha():
         yield text[0].swapcase() + text[1:], "capital"
     if spaces:
         yield f" {text} ", "spaces"
 
 
+def _powers_of_ten(text: str) -> Iterator[str]:
+    """Yield the ways to write a number with an exponent, such as 7.6E9 for 7.6×10^9."""
+    match = re.fullmatch(r"([\d.]+)(?:E| ?(?:×|\\times) ?10\^)([-+]?\d+)", text)
+    if match:
+        mantissa, power = match[1], int(match[2])
+        yield f"{mantissa}E{power}"
+        yield f"{mantissa}e{power:+03d}"
+        yield f"{mantissa}×10{superscript(str(power))}"
+        yield f"{mantissa} x 10^{{{power}}}"
+        yield f"{mantissa}·10^{power}"
+
+
+def _fractions(text: str) -> Iterator[str]:
+    """Yield a fraction with a slash in LaTeX, and one in LaTeX with a slash."""
+    if match := re.fullmatch(r"(\d+)/(\d+)", text):
+        yield rf"\frac{{{match[1]}}}{{{match[2]}}}"
+    if match := re.fullmatch(r"\\frac\{(\d+)\}\{(\d+)\}", text):
+        yield f"{match[1]}/{match[2]}"
+
+
 def equation_rewritings(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
     """Yield other texts of an equation: the same sides, arranged or written in another way."""
     # The first spelling of each symbol; two spellings of one symbol mean the same.
-    spelling = {symbol: text for text, symbol in reversed(ledger.written.items())}
+    spelling = {symbol: text for text, symbol in reversed(list(ledger.written.items()))}
     printed = ledger.printed_text(name)
     no_left_side = "" if re.split(r"=", printed)[0].strip(" &") else "="
 
