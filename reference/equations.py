@@ -4,9 +4,9 @@ Each side of an equation is read into a tree of `Node`s. The same tree is evalua
 arithmetic (`evaluate`), checked for consistent dimensions (`dimension`), and shown as text or
 MathML (`rendered`), so that all of this is done with what the report prints.
 
-A product written without a space binds more tightly than a fraction bar; one written with a space
-binds as tightly as the bar, from left to right. So "2E_t/3Y_t" is (2 E_t)/(3 Y_t), "1/3 \pi X^2" is
-(1/3) pi X^2, and "L/D \rho_p/\rho_t" is ((L/D) rho_p)/rho_t.
+A product written without a space binds more tightly than a fraction bar; one written with a space,
+or with a sign of multiplication, binds as tightly as the bar, from left to right. So "2E_t/3Y_t" is
+(2 E_t)/(3 Y_t), "1/3 \pi X^2" is (1/3) pi X^2, and "L/D \rho_p/\rho_t" is ((L/D) rho_p)/rho_t.
 """
 
 import re
@@ -27,7 +27,7 @@ class EquationError(ValueError):
 
 
 class NoValueError(EquationError, ArithmeticError):
-    """The equation cannot be evaluated, as one of its symbols has no value."""
+    """The equation cannot be evaluated: a symbol has no value, or an exponent no rational one."""
 
 
 class Node(msgspec.Struct, frozen=True):
@@ -75,7 +75,8 @@ class _Reader:
             r"|(?P<number>\d+(?:\.\d+)?)"
             rf"|(?P<function>\\(?:{'|'.join(LOGARITHMS)})(?![a-zA-Z]))"
             r"|(?P<fraction>\\frac(?![a-zA-Z]))"
-            r"|(?P<sign>[-+/^(){}])"
+            r"|(?P<times>\\(?:times|cdot)(?![a-zA-Z])|[*×·])"
+            r"|(?P<sign>[-\N{MINUS SIGN}+/^(){}])"
             r"|(?P<end>\Z)|(?P<unreadable>.))"
         )
         self.tokens = list(re.finditer(token, text))
@@ -85,7 +86,8 @@ class _Reader:
         """The kind and the text of the next token, and whether there is a space before it."""
         token = self.tokens[self.at]
         kind = str(token.lastgroup)
-        return kind, token[kind], bool(token["space"])
+        text = "-" if token[kind] == "\N{MINUS SIGN}" else token[kind]
+        return kind, text, bool(token["space"])
 
     def error(self) -> EquationError:
         """Return the error that the next token cannot stand there."""
@@ -113,7 +115,7 @@ class _Reader:
             left = self.operand("(")
         while (operator := self.operator()) is not None and _OPERATORS[operator][1] > binding:
             kind, tightness = _OPERATORS[operator]
-            self.at += bool(operator.strip())
+            self.at += self.next[0] in ("sign", "times") and self.next[1] != "("
             right = self.operand("{(") if operator == "^" else self.expression(tightness)
             if operator == "-":
                 right = Node("negative", (right,))
@@ -126,6 +128,8 @@ class _Reader:
         kind, text, spaced = self.next
         if kind in _FACTORS or text == "(":
             return " " if spaced else ""
+        if kind == "times":
+            return " "
         return text if text in ("+", "-", "/") or (text == "^" and not spaced) else None
 
     def operand(self, brackets: str) -> Node:
@@ -185,8 +189,7 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
 
     A Fraction or an integer among the values is converted to the arithmetic. A symbol in an
     exponent needs a Fraction.
-    Raises NoValueError for a symbol without a value, and EquationError for an exponent that is not
-    rational.
+    Raises NoValueError for a symbol without a value, and for an exponent that is not rational.
 
     >>> from reference.arithmetic import Reals
     >>> expression = read_expression(r"7/3 \ln(\alpha)", {r"\alpha": "alpha"})
@@ -225,7 +228,7 @@ def _exponent(node: Node, values: Mapping[str, Any]) -> Fraction:
     try:
         return Fraction(evaluate(node, Rationals(), known))
     except (EquationError, InexactError) as error:
-        raise EquationError("an exponent is not a number") from error
+        raise NoValueError("an exponent is no rational number") from error
 
 
 class Equations:

@@ -203,17 +203,30 @@ _WORDS = {
 }  # fmt: skip
 _TEN = r"10\^(?P<power>[-+]?\d{1,4}|\{[-+]?\d{1,4}\})"
 _DECIMAL = re.compile(
-    r"(?P<sign>[-+]?)(?P<whole>\d{1,3}(?:,\d{3})+|\d+)(?:[.·](?P<decimals>\d+))?"
-    rf"(?:[Ee](?P<e>[-+]?\d{{1,4}})|\s*(?:×|x|\\times)\s*{_TEN})?"
+    r"(?P<sign>[-+]?)(?=[.·]?\d)(?P<whole>\d{1,3}(?:,\d{3})+|\d*)(?:[.·](?P<decimals>\d*))?"
+    rf"(?:[Ee](?P<e>[-+]?\d{{1,4}})|\s*(?:[×x*·]|\\times|\\cdot)\s*{_TEN})?(?P<percent>\s*\\?%)?"
 )
+_RAISED = re.compile("[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+")
+_LOWERED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
 _FRACTION = re.compile(r"(\d+)/([1-9]\d*)|\\frac\{(\d+)\}\{([1-9]\d*)\}")
+
+
+def in_ascii(number: str) -> str:
+    """Return a number's text with a hyphen for the minus sign and "^" for raised digits.
+
+    >>> in_ascii("\N{MINUS SIGN}7.6×10⁻⁹")
+    '-7.6×10^-9'
+    """
+    raised = _RAISED.sub(lambda power: "^" + power[0].translate(_LOWERED), number)
+    return raised.replace("\N{MINUS SIGN}", "-")
 
 
 @lru_cache(4096)
 def parse(text: str) -> Printed:
     """Read one printed number. Raises ValueError for any other text.
 
-    It may be a decimal ("7.67", "5,575", "8·9") or have an exponent ("3.11E+08", "9.13 × 10^9").
+    It may be a decimal ("7.67", "5,575", "8·9", ".278", "5."), have an exponent ("3.11E+08",
+    "9.13 × 10^9", "7.6×10⁹") or a percent sign ("16 %" is 0.16). Either minus sign is read.
     Powers of ten ("10^7"), fractions ("7/3") and number words ("three") are read as exact. A
     leading "~" is ignored, as the kind of such a claim says that it is an approximation.
 
@@ -221,8 +234,10 @@ def parse(text: str) -> Printed:
     Fraction(311500000, 1)
     >>> [str(parse("9.13 × 10^9").interval()), str(parse("10.0").interval())]
     ['[9.125E+9, 9.135E+9)', '[9.95, 10.05)']
+    >>> [str(parse(text).interval()) for text in (".278", "16 %", "7.6×10⁹")]
+    ['[0.2775, 0.2785)', '[0.155, 0.165)', '[7.55E+9, 7.65E+9)']
     """
-    bare = text.strip().removeprefix("~").strip()
+    bare = in_ascii(text.strip().removeprefix("~").strip())
     if word := _WORDS.get(bare.lower()):
         return Printed(text, Fraction(word))
     if match := _FRACTION.fullmatch(bare):
@@ -234,10 +249,11 @@ def parse(text: str) -> Printed:
         raise ValueError(f"cannot read {text!r} as a printed number")
     whole, decimals = match["whole"].replace(",", ""), match["decimals"] or ""
     exponent = int((match["e"] or match["power"] or "0").strip("{}"))
-    scale = Fraction(10) ** (exponent - len(decimals))
+    scale = Fraction(10) ** (exponent - len(decimals) - (2 if match["percent"] else 0))
     value = int(match["sign"] + whole + decimals) * scale
     floating = match["e"] is not None or match["power"] is not None
-    digits = "" if decimals or floating else whole.lstrip("0")
+    # A decimal point says that the zeros before it are significant, as in "700.".
+    digits = "" if match["decimals"] is not None or floating else whole.lstrip("0")
     zeros = len(digits) - len(digits.rstrip("0"))
     return Printed(text, value, tuple(scale * 10**n for n in range(zeros + 1)), floating)
 

@@ -89,7 +89,7 @@ _UNITS = {
 _FACTOR = re.compile(
     r"\s*(?P<over>[*/·]?)\s*(?P<name>[A-Za-z_]+|%|1(?![\s\d]*\d))(?:(?:\^|\*\*)?(?P<power>-?[1-9]))?"
 )
-_SAME = str.maketrans({"µ": "u", "μ": "u", "²": "2", "³": "3", "⁻": "-"})
+_SAME = str.maketrans("µμ\N{MINUS SIGN}⁻¹²³⁴⁵⁶⁷⁸⁹", "uu--123456789")
 _LONGEST = 40
 
 
@@ -125,8 +125,8 @@ def _advice(unit: str) -> str:
 def to_si(unit: str) -> Fraction:
     """Return the factor from a unit to SI base units. Raises UnitError for an unknown unit.
 
-    >>> to_si("um"), float(to_si("ksi"))
-    (Fraction(1, 1000000), 6894757.293168361)
+    >>> to_si("um"), float(to_si("ksi")), to_si("m·s⁻¹")
+    (Fraction(1, 1000000), 6894757.293168361, Fraction(1, 1))
     """
     return _unit(unit)[0]
 

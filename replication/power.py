@@ -3,6 +3,9 @@
 A planted misprint is one edit of one printed number or equation. It is visible if it leaves some
 number, repetition or equation in disagreement with the rest of the report; this is decided in
 doubles, independently of the audit's proofs. The audit then judges what depends on the edit.
+
+The controls are harmless rewritings: the same number or equation, written in another way. A verdict
+that one of them changes is a false alarm.
 """
 
 import random
@@ -11,16 +14,18 @@ from importlib import resources
 from typing import NamedTuple
 
 import msgspec
+from scipy.stats import binomtest
 
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
 from replication.audit.explain import dependents, edits_of
+from replication.audit.rewritings import rewritings_of
 from replication.audit.verdict import disagreeing
 from replication.text import Table
 
 
 class Plant(NamedTuple):
-    """A planted misprint: the claim or equation, its true and planted texts, the kind of edit."""
+    """A planted text: the claim or equation, its true and its planted text, the kind of edit."""
 
     entry: str
     true: str
@@ -33,7 +38,8 @@ class Counts(msgspec.Struct, kw_only=True):
 
     `detected`: something fails because of the misprint; `accused_wrongly`: the first repair that
     the audit lists changes another entry; `repaired`: the true text is among the listed repairs;
-    `repaired_first`: it is the first of them.
+    `repaired_first`: it is the first of them. `controls` and `false_alarms`: how many harmless
+    rewritings were tried, and how many of them changed a verdict.
     """
 
     planted: int = 0
@@ -43,6 +49,8 @@ class Counts(msgspec.Struct, kw_only=True):
     accused_wrongly: int = 0
     repaired: int = 0
     repaired_first: int = 0
+    controls: int = 0
+    false_alarms: int = 0
 
     def add(self, more: "Counts") -> None:
         """Add other counts to these."""
@@ -58,21 +66,60 @@ class Power(Counts, kw_only=True):
     by_edit: dict[str, Counts] = msgspec.field(default_factory=dict)
     unnoticed: list[dict[str, str]] = msgspec.field(default_factory=list)
 
+    def rates(self) -> Table:
+        """Return the rates of the whole sample, with the 95 % interval of each (Wilson's)."""
+        shares = [
+            ("visible misprints noticed", self.detected, self.visible),
+            ("the true text is named", self.repaired, self.visible),
+            ("it is named first", self.repaired_first, self.visible),
+            ("another entry is named first", self.accused_wrongly, self.visible),
+            ("harmless rewritings that change a verdict", self.false_alarms, self.controls),
+        ]
+        rows = [(name, f"{k} of {n}", percent(k, n), interval(k, n)) for name, k, n in shares]
+        return Table("Rates", ("", "cases", "percent", "95 % interval"), rows)
+
     def table(self) -> Table:
-        """Return rates in percent of the visible misprints: all, by kind of entry and of edit."""
+        """Return rates in percent of the visible misprints, by kind of entry and of edit."""
         groups: dict[str, Counts] = {"all": self}
         for word, parts in (("in", self.by_kind), ("by", self.by_edit)):
             groups |= {f"{word} {name}": parts[name] for name in sorted(parts)}
-        rates = {
-            "noticed": "detected", "text named": "repaired", "named first": "repaired_first",
-            "accused wrongly": "accused_wrongly",
-        }  # fmt: skip
-        rows = []
-        for name, counts in groups.items():
-            shares = (getattr(counts, key) / (counts.visible or 1) for key in rates.values())
-            texts = (f"{100 * share:.1f}" if counts.visible else "-" for share in shares)
-            rows.append((name, str(counts.planted), str(counts.visible), *texts))
-        return Table("Rates in percent", ("", "planted", "visible", *rates), rows)
+        heads = (
+            "", "planted", "visible", "noticed", "text named", "named first", "accused wrongly",
+            "rewritten", "false alarms",
+        )  # fmt: skip
+        rows = [
+            (
+                name, str(counts.planted), str(counts.visible),
+                percent(counts.detected, counts.visible),
+                percent(counts.repaired, counts.visible),
+                percent(counts.repaired_first, counts.visible),
+                percent(counts.accused_wrongly, counts.visible),
+                str(counts.controls), percent(counts.false_alarms, counts.controls),
+            )
+            for name, counts in groups.items()
+        ]  # fmt: skip
+        return Table("Rates in percent", heads, rows)
+
+
+def percent(k: int, n: int) -> str:
+    """Return k of n in percent, with one decimal; "-" of none.
+
+    >>> percent(372, 408), percent(0, 0)
+    ('91.2', '-')
+    """
+    return f"{100 * k / n:.1f}" if n else "-"
+
+
+def interval(k: int, n: int) -> str:
+    """Return the 95 % interval of a share, k of n, in percent, by Wilson's formula; "-" of none.
+
+    >>> interval(372, 408), interval(0, 500)
+    ('88.0 to 93.6', '0.0 to 0.8')
+    """
+    if not n:
+        return "-"
+    ends = binomtest(k, n).proportion_ci(method="wilson")
+    return f"{100 * ends.low:.1f} to {100 * ends.high:.1f}"
 
 
 def measured_rates() -> Power:
@@ -90,6 +137,35 @@ def plants(ledger: Ledger) -> Iterator[Plant]:
     for name in (*ledger.claims, *ledger.equations):
         for text, kind in edits_of(ledger, name):
             yield Plant(name, ledger.printed_text(name), text, kind)
+
+
+def controls(ledger: Ledger) -> Iterator[Plant]:
+    """Yield every harmless rewriting of all printed numbers and equations."""
+    for name in (*ledger.claims, *ledger.equations):
+        for text, kind in rewritings_of(ledger, name):
+            yield Plant(name, ledger.printed_text(name), text, kind)
+
+
+def is_false_alarm(truth: Audit, control: Plant) -> bool:
+    """Return whether a harmless rewriting changes the verdict on anything that depends on it.
+
+    The constants of an equation that is rewritten as a whole have no place of their own in its new
+    text; they are not judged.
+    """
+    ledger = truth.ledger.misprint(control.entry, control.text)
+    audit = Audit(ledger, every_convention=False)
+    equation = ledger.equation_of(control.entry)
+    constants = truth.ledger.constants_of(equation) if equation == control.entry else []
+    names = dependents(truth.ledger, control.entry).difference(constants)
+    return any(
+        audit.judge.assess(ledger.claims[name]).verdict
+        != truth.judge.assess(truth.ledger.claims[name]).verdict
+        for name in names
+    ) or any(
+        audit.judge.assess_equation(name, constants=False).verdict
+        != truth.judge.assess_equation(name, constants=False).verdict
+        for name in (ledger.equations if equation else ())
+    )
 
 
 def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
@@ -162,19 +238,26 @@ def _is_visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
 def power(
     ledger: Ledger, sample: int, seed: int, progress: Callable[[Iterable[Plant]], Iterable[Plant]]
 ) -> Power:
-    """Plant a random sample of misprints, one at a time, and count what the audit notices.
+    """Plant random samples of misprints and of harmless rewritings, one text at a time.
 
-    `progress` wraps the iteration over the misprints, such as in a progress bar.
+    Of each there are at most `sample`. Returns the counts of what the audit notices. `progress`
+    wraps the iteration over the planted texts, such as in a progress bar.
     """
-    everything = list(plants(ledger))
-    chosen = random.Random(seed).sample(everything, min(sample, len(everything)))
+
+    def drawn(everything: list[Plant]) -> list[Plant]:
+        return random.Random(seed).sample(everything, min(sample, len(everything)))
+
+    misprints, harmless = drawn(list(plants(ledger))), set(drawn(list(controls(ledger))))
     truth, result = Audit(ledger, every_convention=False), Power(seed=seed)
-    for plant in progress(chosen):
-        failing, counts = trial(truth, plant)
+    for plant in progress([*misprints, *sorted(harmless)]):
+        if plant in harmless:
+            counts = Counts(controls=1, false_alarms=is_false_alarm(truth, plant))
+        else:
+            failing, counts = trial(truth, plant)
+            if counts.visible and not failing:
+                result.unnoticed.append(plant._asdict())
         kind = ledger.claims[plant.entry].kind if plant.entry in ledger.claims else "equation"
         by_kind = result.by_kind.setdefault(kind, Counts())
         for total in (result, by_kind, result.by_edit.setdefault(plant.edit, Counts())):
             total.add(counts)
-        if counts.visible and not failing:
-            result.unnoticed.append(plant._asdict())
     return result

@@ -10,7 +10,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
-from reference.printed import Interval, parse
+from reference.printed import Interval, in_ascii, parse
 from reference.units import same_dimension, to_si
 
 
@@ -144,12 +144,14 @@ _NUMBER = re.compile(
     r"(?P<number>[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d{1,4})?)\s*"
     r"(?P<unit>(?![\s.]|[eE]?[-+]?\d).*)"
 )
+_TIMES_TEN = re.compile(r"(?<=[\d.])\s*(?:[×x*·]|\\times|\\cdot)\s*10\^([-+]?\d{1,4})")
+"""A power of ten as it is printed, such as "×10^9"."""
 
 
 def _number_and_unit(text: str, unit: str) -> tuple[str, str]:
     """Return a number and its unit, or "1"; raises ValueError as `read_number` does."""
-    text = text.replace("\N{MINUS SIGN}", "-")  # word processors replace hyphens by it
-    match = _NUMBER.fullmatch(text.strip()) if len(text) < 400 else None
+    plain = _TIMES_TEN.sub(r"e\1", in_ascii(text.strip())) if len(text) < 400 else ""
+    match = _NUMBER.fullmatch(plain)
     if match is None:
         raise ValueError(
             f"{quoted(text, 40)} is not a finite number with or without a unit, such as '1 {unit}'"
@@ -171,8 +173,8 @@ def read_number(text: str, unit: str) -> float:
     Without a unit it is taken as SI. `unit` is an SI unit of the quantity expected. Raises
     ValueError if the text is not a finite number, or its unit measures another quantity.
 
-    >>> read_number("0.5 ns", "s"), read_number("1.1e-5", "m")
-    (5e-10, 1.1e-05)
+    >>> read_number("0.5 ns", "s"), read_number("1.1e-5", "m"), read_number("7.6×10⁹ Pa", "Pa")
+    (5e-10, 1.1e-05, 7600000000.0)
     """
     number, given_unit = _number_and_unit(text, unit)
     try:

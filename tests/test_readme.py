@@ -71,14 +71,18 @@ def test_the_two_commands_are_those_that_users_were_promised() -> None:
 
 def test_the_rates_are_those_measured() -> None:
     rates = measured_rates()
-    shares = (rates.repaired, rates.repaired_first, rates.accused_wrongly)
-    named, first, accused = (f"{100 * share / rates.visible:.1f} %" for share in shares)
     hidden = f"{rates.invisible} ({rates.invisible / rates.planted:.0%}) leave".replace("%", " %")
     text = " ".join(README.split())
     assert f"Of {rates.planted}, drawn with seed {rates.seed}, it notices {rates.detected};" in text
     assert f"the other {hidden} all numbers that it relates in agreement." in text
-    assert f"For the {rates.visible} it names the true text in {named}, first in {first}," in text
-    assert f"and another entry first in {accused}." in text
+    assert f"It also rewrites {rates.controls} numbers and equations" in text
+    assert f"| of the {rates.visible} that can be noticed |" in text
+    heads = (
+        "noticed", "the true text is named", "it is named first", "another entry is named first",
+        f"**false alarms**, of {rates.controls} harmless rewritings",
+    )  # fmt: skip
+    for head, (_, _, share, interval) in zip(heads, rates.rates().rows, strict=True):
+        assert f"| {head} | {share} | {interval} |" in text
 
 
 def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:

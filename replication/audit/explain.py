@@ -228,7 +228,7 @@ EQUATION_EDITS = (
 )  # fmt: skip
 """The kinds of edits of an equation. The numbers in it are claims, which have their own edits."""
 
-_LEADING_ZERO = re.compile(r"~?\s*0\d")
+_ODD = re.compile(r"~?\s*(?:0\d|\.)|.*\.(?!\d)")
 _EXPONENT = re.compile(r"(?P<lead>[Ee]|10\^\{?)(?P<number>[-+]?\d+)")
 
 
@@ -243,7 +243,8 @@ def edits_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
 def edits(text: str) -> Iterator[tuple[str, str]]:
     """Yield every text one edit away that is another number, with the kind of edit; none twice.
 
-    The base of a power of ten is not edited, and no text begins with a zero before a digit.
+    The base of a power of ten is not edited. No text begins with a zero before a digit, and none
+    begins or ends with the decimal point: a printer sees that something is missing there.
 
     >>> [text for text, kind in edits("0.278") if kind in ("digits swapped", "digit doubled")]
     ['2.078', '0.728', '0.287', '0.2278', '0.2778', '0.2788']
@@ -253,7 +254,7 @@ def edits(text: str) -> Iterator[tuple[str, str]]:
     seen, original = {text}, _number(text)
     for kind, edit in _EDITS.items():
         for edited in edit(text):
-            if edited in seen or _LEADING_ZERO.match(edited):
+            if edited in seen or _ODD.match(edited):
                 continue
             seen.add(edited)
             if _number(edited) not in (None, original):

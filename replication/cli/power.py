@@ -1,4 +1,7 @@
-"""`coldspray power`: plant misprints in copies of the report, and count what the audit notices."""
+"""`coldspray power`: plant misprints in copies of the report, and count what the audit notices.
+
+Harmless rewritings are planted, too: they show how often the audit raises a false alarm.
+"""
 
 import argparse
 from functools import partial
@@ -14,7 +17,7 @@ EXAMPLE = "coldspray power --sample 20 --seed 7"
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--sample", metavar="N", type=whole(1, 1_000_000), default=500,
-        help="number of misprints (default: %(default)s)",
+        help="number of misprints, and of harmless rewritings (default: %(default)s)",
     )  # fmt: skip
     parser.add_argument(
         "--seed", metavar="N", type=whole(0, 2**64 - 1), default=1,
@@ -25,18 +28,25 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    """Print how many misprints are noticed, by kind of entry and of edit, and which are not."""
+    """Print how many misprints are noticed, by kind of entry and of edit, and which are not.
+
+    With them stands how many harmless rewritings change a verdict.
+    """
     from reference.ledger import load
     from replication.power import power
 
-    shown = partial(progress, options, unit=" misprints", leave=False)
+    shown = partial(progress, options, unit=" texts", leave=False)
     result = power(load(), options.sample, options.seed, shown)
-    table = result.table()
     lines = [
         f"{result.planted} misprints, planted one at a time; {result.invisible} cannot be noticed,",
-        "as all numbers that the audit relates still agree. Of the others, in percent:",
+        "as all numbers that the audit relates still agree. Of the others, and of",
+        f"{result.controls} harmless rewritings of numbers and equations:",
         "",
-        table_text(table, width(piped=10_000)),
+        table_text(result.rates(), width(piped=10_000)),
+        "",
+        "By kind of entry and of edit, in percent:",
+        "",
+        table_text(result.table(), width(piped=10_000)),
     ]
     if result.unnoticed:
         lines += ["", "Visible, and not noticed:"]

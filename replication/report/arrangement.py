@@ -238,10 +238,10 @@ class Arrangement:
         ]
 
     @property
-    def power(self) -> tuple[str, Table]:
-        """What the audit notices of planted misprints, in words and as a table of rates."""
+    def power(self) -> tuple[str, Table, Table]:
+        """What the audit notices of planted misprints: in words, the rates, and these by kind."""
         rates = measured_rates()
-        return words.power(rates), rates.table()
+        return words.power(rates), rates.rates(), rates.table()
 
 
 def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:

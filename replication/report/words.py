@@ -216,10 +216,10 @@ def power(rates: Power) -> str:
     """Say what the audit notices of planted misprints."""
     return (
         f"{rates.planted} misprints were planted, one at a time, in copies of the report, and each "
-        f"copy was judged by this audit. It notices {rates.detected} of them. {rates.invisible} "
-        "leave all numbers that it relates in agreement, so they cannot be noticed. Of the "
-        f"{rates.visible} visible ones, the true text is among the repairs that it names in "
-        f"{rates.repaired} cases, and is the first of them in {rates.repaired_first}; in "
-        f"{rates.accused_wrongly} cases another entry is named first. Measured by "
-        f"`coldspray power --sample {rates.planted} --seed {rates.seed}`."
+        f"copy was judged by this audit. {rates.invisible} of them leave all numbers that it "
+        "relates in agreement, so they cannot be noticed. As a control, "
+        f"{rates.controls} numbers and equations were written in another way that says the same; "
+        f"no verdict may change. Of the {rates.visible} misprints that are visible and of the "
+        "controls, with the 95 % interval of each rate (Wilson's), measured by "
+        f"`coldspray power --sample {rates.planted} --seed {rates.seed}`:"
     )

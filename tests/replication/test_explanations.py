@@ -1,11 +1,13 @@
 """Misprints: in equations they are noticed, in numbers explained; the rate is measured."""
 
+import math
 import random
 from fractions import Fraction as F
 
 import pytest
 
-from reference.equations import EquationError
+from reference.arithmetic import Floats
+from reference.equations import EquationError, evaluate
 from reference.ledger import Ledger, load
 from replication.audit.assessment import Verdict
 from replication.audit.audit import Audit
@@ -16,8 +18,21 @@ from replication.audit.explain import (
     equation_edits,
 )
 from replication.audit.record import Record
+from replication.audit.rewritings import number_rewritings, rewritings_of
 from replication.audit.verdict import Judge, assess_equation, disagreeing, follows
-from replication.power import Plant, measured_rates, new_failures, plants, power, trial
+from replication.power import (
+    Counts,
+    Plant,
+    Power,
+    controls,
+    interval,
+    is_false_alarm,
+    measured_rates,
+    new_failures,
+    plants,
+    power,
+    trial,
+)
 
 LEDGER = load()
 PAIR = ("frank-zook-rha", "frank-zook-stainless")
@@ -279,6 +294,79 @@ def test_a_planted_misprint_is_noticed_where_it_should_be(
     noticed, counts = trial(TRUTH, Plant(name, LEDGER.printed_text(name), text, ""))
     assert noticed == failing
     assert counts.visible == bool(failing)
+
+
+@pytest.mark.parametrize("symbol", [r"\pi", r"\beta", r"\alpha", "k_t", "k_1"])
+def test_an_exponent_that_is_no_number_is_a_failure_and_ends_nothing(symbol: str) -> None:
+    plant = Plant("eq8", LEDGER.printed_text("eq8"), f"F_r = q (2a)^{symbol}", "symbol changed")
+    failing, counts = trial(TRUTH, plant)
+    assert "goodier-beta" in failing
+    assert counts.repaired_first
+
+
+# Controls: the same number or equation in other words
+
+CONTROLS = list(controls(LEDGER))
+
+
+@pytest.mark.parametrize(
+    ("text", "others"),
+    [
+        (
+            "5.00E+02",
+            ["5.00E2", "5.00e+02", "5.00×10²", "5.00 x 10^{2}", "5.00·10^2", " 5.00E+02 "],
+        ),
+        ("4.96E-11", ["4.96E-11", "4.96e-11", "4.96×10⁻¹¹", "4.96 x 10^{-11}", "4.96·10^-11",
+                      "4.96E\N{MINUS SIGN}11", " 4.96E-11 "]),
+        ("0.278", [".278", "0·278", " 0.278 "]),
+        ("5575", ["5,575", " 5575 "]),
+        ("7/3", [r"\frac{7}{3}", " 7/3 "]),
+        ("twice", ["Twice", " twice "]),
+    ],
+)  # fmt: skip
+def test_rewritings_of_a_number(text: str, others: list[str]) -> None:
+    assert [other for other, _ in number_rewritings(text)] == others
+
+
+def test_rewritings_of_an_equation_have_the_same_value() -> None:
+    """Their sides are evaluated in doubles with values of no meaning for all symbols."""
+    values = {name: 1 + k / 7 for k, name in enumerate(LEDGER.symbols)} | {"n": F(2)}
+    for name in LEDGER.equations:
+        printed = [evaluate(side, Floats(), values) for side in LEDGER.sides[name]]
+        texts = [text for text, _ in rewritings_of(LEDGER, name)]
+        assert len(texts) > 4
+        for text in texts:
+            sides = [evaluate(side, Floats(), values) for side in LEDGER.read(text)]
+            assert sides == pytest.approx(printed, rel=1e-14), text
+
+
+def test_every_number_and_every_equation_gets_rewritings() -> None:
+    numbers = {claim.id for claim in LEDGER.claims.values() if claim.printed is not None}
+    bare = {name for name in numbers if LEDGER.claims[name].within}  # such as the 2 in 2a
+    assert {control.entry for control in CONTROLS} >= (numbers - bare) | set(LEDGER.equations)
+
+
+def test_a_rewriting_that_says_something_else_is_a_false_alarm() -> None:
+    """The counter of false alarms counts: a misprint passed off as a control is one."""
+    assert is_false_alarm(TRUTH, Plant("a1-mass", "4.96E-11", "4.96E-12", ""))
+    assert is_false_alarm(TRUTH, Plant("diameter", "D = 2R", "D = R", ""))
+
+
+def test_intervals_of_rates_are_wilsons() -> None:
+    """The textbook's: center (p + z^2/2n)/(1 + z^2/n), half z sqrt(p q/n + z^2/4n^2)/(1 + ...)."""
+    z, k, n = 1.959963984540054, 15, 40
+    p = k / n
+    center, half = p + z * z / (2 * n), z * math.sqrt(p * (1 - p) / n + z * z / (4 * n * n))
+    low, high = (100 * (center + sign * half) / (1 + z * z / n) for sign in (-1, 1))
+    assert interval(k, n) == f"{low:.1f} to {high:.1f}"
+    assert interval(0, 0) == "-"
+    nothing = Power(seed=1, by_kind={"bound": Counts()})
+    assert {row[2] for row in nothing.rates().rows} == {"-"}
+
+
+@pytest.mark.slow
+def test_no_harmless_rewriting_changes_a_verdict() -> None:
+    assert [control for control in CONTROLS if is_false_alarm(TRUTH, control)] == []
 
 
 @pytest.mark.slow
