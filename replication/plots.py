@@ -455,7 +455,6 @@ def _guide(panel: "Axes", steps: Any, errors: Any, order: int) -> None:
 
 
 def plot_fit(
-    impact: Impact,
     measurements: Sequence[Measurement],
     fit: Fit,
     title: str = "",
@@ -471,8 +470,7 @@ def plot_fit(
     bars = None
     if all(m.uncertainty is not None for m in measurements):
         bars = DEPTH.shown([m.uncertainty for m in measurements])
-    x, look = INPUT["velocity"], look_of(impact)
-    words = _fitted(fit)
+    x, look, words = INPUT["velocity"], OTHER_LOOKS[0], _fitted(fit)
     with styled():
         figure, (above, below) = _panels(title, 2)
         if len({m.impact[1:] for m in measurements}) == 1:
