@@ -593,9 +593,10 @@ def _series(
     `shown` are those of `axes` of which each combination has a curve of its own.
     """
     series, listed = [], {name: _listed(name, axes, results) for name in shown}
+    alone = "" if shown else _only(results, "beta")  # several curves must differ
     for count, at in enumerate(product(*map(range, shown.values()))):
         values = {name: listed[name][k] for name, k in zip(shown, at, strict=True)}
-        beta = f"{values['beta']:g}" if "beta" in values else _only(results, "beta")
+        beta = f"{values['beta']:g}" if "beta" in values else alone
         series.append((in_title(values), _look(beta, count), at))
     return series
 
@@ -693,18 +694,17 @@ def _contours(
     for panel, (column, quantity) in zip(panels, _RESULTS.items(), strict=True):
         values = quantity.shown(_table(results[column], axes)[..., 0])
         values = values if [*axes] == [up, across] else values.T
-        levels = _levels(values)
-        panel.contourf(
-            *inputs,
-            values,
-            levels,
-            cmap="Greys",
-            alpha=0.5,
-            norm=BoundaryNorm(levels, 256, extend="both"),
-            extend="both",
-        )
-        lines = panel.contour(*inputs, values, levels, colors=INK, linewidths=0.8)
-        panel.clabel(lines, fontsize=8, fmt="%g")
+        if levels := _levels(values):
+            shades: Any = {"cmap": "Greys", "alpha": 0.5, "extend": "both"}
+            norm = BoundaryNorm(levels, 256, extend="both")
+            panel.contourf(*inputs, values, levels, norm=norm, **shades)
+            lines = panel.contour(*inputs, values, levels, colors=INK, linewidths=0.8)
+            panel.clabel(lines, fontsize=8, fmt="%g")
+        else:
+            panel.set(xlim=(inputs[0].min(), inputs[0].max()))
+            panel.set(ylim=(inputs[1].min(), inputs[1].max()))
+            words = f"about {number(float(values.flat[0]))} everywhere"
+            panel.annotate(words, (0.5, 0.5), xycoords="axes fraction", ha="center")
         panel.set(ylabel=y.title, title=quantity.title)
         wide = [name for name, own in zip("xy", inputs, strict=True) if _is_wide(own)]
         _make_logarithmic(panel, *wide)
@@ -714,17 +714,19 @@ def _contours(
     return figure
 
 
-def _levels(values: Any) -> Any:
-    """Return some ten round levels in the range of values: equal steps, or 1, 2, 5, 10, ..."""
+def _levels(values: Any) -> list[float]:
+    """Return some ten round levels in the range of values: equal steps, or 1, 2, 5, 10, ...
+
+    There is none if the values differ in their last digits only.
+    """
     from matplotlib.ticker import LogLocator, MaxNLocator
 
     low, high = float(values.min()), float(values.max())
-    if not low < high:
-        return [low, low + (abs(low) or 1.0)]
+    if high - low <= 1e-12 * abs(high):
+        return []
     wide = low > 0 and high > 20 * low
     locator = LogLocator(subs=(1, 2, 5), numticks=20) if wide else MaxNLocator(10)
-    levels: Any = locator.tick_values(low, high)
-    return levels[(levels >= low) & (levels <= high)]
+    return [level for level in map(float, locator.tick_values(low, high)) if low < level < high]
 
 
 def _histograms(
