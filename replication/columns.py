@@ -47,15 +47,16 @@ class Column:
         Traceback (most recent call last):
         ValueError: my.csv, line 3, column 'v [m/s]': the cell is empty
         """
+        own = "" if self.unit == unit == "1" else self.unit  # "X/R [1]" and "X/R [-]" have none
         with place(f"{self.file}, column {quoted(self.head)}"):
-            read_number(f"1 {self.unit}", unit)  # its unit, once and not in every row
+            read_number(f"1 {own}", unit)  # its unit, once and not in every row
         numbers, errors = [], []
         for line, text in zip(self.lines, self.texts, strict=True):
             try:
                 with place(f"{self.file}, line {line}, column {quoted(self.head)}"):
                     if not text:
                         raise ValueError("the cell is empty")
-                    numbers.append(read_number(f"{text} {self.unit}".strip(), unit))
+                    numbers.append(read_number(f"{text} {own}".strip(), unit))
             except ValueError as error:
                 errors.append((line, error))
         if errors:

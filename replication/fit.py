@@ -22,6 +22,7 @@ OTHER_FACTOR = {"resistance": "", "beta": "flow_stress", "flow_stress": "beta"}
 HEADS = {
     "velocity": ("velocity", "impact velocity", "v"),
     "depth": ("depth", "penetration depth", "final depth", "x"),
+    "normalized_depth": ("normalized depth", "depth over radius", "x/r"),
     "uncertainty": ("uncertainty", "depth uncertainty", "uncertainty of depth", "sigma"),
     "radius": ("radius", "particle radius", "r"),
     "particle_density": ("particle density",),
@@ -29,7 +30,7 @@ HEADS = {
 }
 """The names by which columns are known: what is measured, and inputs that may differ by row."""
 
-_UNITS = INPUTS | {"depth": "m", "uncertainty": "m"}
+_UNITS = INPUTS | {"depth": "m", "normalized_depth": "1"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,29 +81,36 @@ class Fit:
 def read_measurements(path: Path, impact: Impact) -> list[Measurement]:
     """Read measurements from a file of columns (`replication.columns`), by the names in `HEADS`.
 
-    It must have columns of the velocity and the depth. Inputs that it does not have are the case's.
-    Raises OSError, or ValueError that names the file and the line.
+    It must have columns of the velocity, and of the depth or the normalized depth X/R; an
+    uncertainty is that of the column it has. Inputs that it does not have are the case's. Raises
+    OSError, or ValueError that names the file and the line.
     """
     columns = read_columns(path)
-    numbers, lines = {}, columns[0].lines
-    for name, names in HEADS.items():
-        column = column_of(columns, names)
-        if column is not None:
-            numbers[name] = column.numbers(_UNITS[name])
-        elif name in ("velocity", "depth"):
+    by_name = {name: column_of(columns, names) for name, names in HEADS.items()}
+    if by_name["depth"] and by_name["normalized_depth"]:
+        raise ValueError(f"{path} has both a depth and a normalized depth: leave one of them out")
+    measured = "normalized_depth" if by_name["normalized_depth"] else "depth"
+    for name in ("velocity", measured):
+        if by_name[name] is None:
             heads = ", ".join(quoted(column.head) for column in columns[:6])
             raise ValueError(
                 f"{path} has no column {name!r}: name one so, such as '{name} [{_UNITS[name]}]' "
                 f"(it has {heads})"
             )
+    units = _UNITS | {"uncertainty": _UNITS[measured]}
+    numbers = {name: column.numbers(units[name]) for name, column in by_name.items() if column}
     case = {name: impact.motion[name] for name in HEADS if name in impact.motion}
     measurements, errors = [], []
-    for k, line in enumerate(lines):
-        row = {name: values[k] for name, values in numbers.items()}
+    for k, line in enumerate(columns[0].lines):
+        row = case | {name: values[k] for name, values in numbers.items()}
         try:
             with place(f"{path}, line {line}"):
                 check(row)
-            measurements.append(Measurement(**{**case, **row}, line=line))
+            if "normalized_depth" in row:
+                row["depth"] = row.pop("normalized_depth") * row["radius"]
+                if "uncertainty" in row:
+                    row["uncertainty"] *= row["radius"]
+            measurements.append(Measurement(**row, line=line))
         except ValueError as error:
             errors.append((line, error))
     if errors:
@@ -124,7 +132,7 @@ def fit(impact: Impact, measurements: Sequence[Measurement], quantity: str = "re
     >>> f"{fitted.value:.2f} +- {fitted.standard_error:.2f}"
     '5.02 +- 0.04'
     """
-    factor = _factor(impact, quantity)
+    factor = check_factor(impact, quantity)
     if not measurements:
         raise ValueError("there is no measurement to fit")
     uncertainties = [m.uncertainty for m in measurements if m.uncertainty is not None]
@@ -148,14 +156,20 @@ def fit(impact: Impact, measurements: Sequence[Measurement], quantity: str = "re
     return Fit(quantity, value, standard_error, resistance, residuals, chi_square)
 
 
-def _factor(impact: Impact, quantity: str) -> float:
-    """Return by what the resistance is divided to give the quantity."""
+def check_factor(impact: Impact, quantity: str) -> float:
+    """Return by what the resistance is divided to give the quantity; ValueError if it is unknown.
+
+    >>> from replication.cases import BETA_5
+    >>> check_factor(BETA_5, "beta")
+    700000000.0
+    """
     if quantity not in OTHER_FACTOR:
         raise ValueError(f"cannot fit {quoted(quantity)}: {advice(quantity, OTHER_FACTOR)}")
     other = OTHER_FACTOR[quantity]
     factor = getattr(impact, other) if other else 1.0
     if factor is None:
-        raise ValueError(f"to fit {quantity}, a case with {other} is needed: give it")
+        words, other = quantity.replace("_", " "), other.replace("_", " ")
+        raise ValueError(f"the {words} is the resistance over the {other}: give the {other}")
     return float(factor)
 
 
@@ -202,4 +216,5 @@ def _single(measurement: Measurement) -> float:
         return float(arrays.resistance_for_depth(measurement.depth, *measurement.impact))
     except InputError as error:
         where = f"line {measurement.line}: " if measurement.line else ""
-        raise ValueError(f"{where}{error}") from error
+        radii = f"{measurement.depth / measurement.radius:.3g} times the radius"
+        raise ValueError(f"{where}the depth is {radii}: {error}") from error

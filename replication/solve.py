@@ -98,8 +98,8 @@ def inputs_but(impact: Impact, quantity: str) -> dict[str, float]:
         other = _OTHER_FACTOR[quantity]
         factor = getattr(impact, other)
         if factor is None:
-            name = quantity.replace("_", " ")
-            raise ValueError(f"the {name} is the resistance over the {other}: give {other}")
+            name, other = quantity.replace("_", " "), other.replace("_", " ")
+            raise ValueError(f"the {name} is the resistance over the {other}: give the {other}")
         inputs[other] = factor
     elif quantity != "resistance":
         parts = {"beta": impact.beta, "flow_stress": impact.flow_stress}

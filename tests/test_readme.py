@@ -6,9 +6,11 @@ import json
 import re
 import runpy
 import shlex
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
+from contextlib import chdir
 from pathlib import Path
 from typing import Any
 
@@ -22,9 +24,11 @@ from replication.text import json_text
 
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
+QUESTIONS = (ROOT / "docs" / "questions.md").read_text("utf-8")
 EXAMPLES = [
     (command, output)
-    for block in re.findall(r"```console\n(.*?)```", README, re.DOTALL)
+    for page in (README, QUESTIONS)
+    for block in re.findall(r"```console\n(.*?)```", page, re.DOTALL)
     for command, output in re.findall(
         r"^\$ coldspray (.*)\n((?:(?!\$ ).*\n)*)", block, re.MULTILINE
     )
@@ -32,12 +36,23 @@ EXAMPLES = [
 
 
 @pytest.mark.parametrize(("command", "output"), EXAMPLES, ids=[c for c, _ in EXAMPLES])
-def test_example_prints_what_the_readme_says(command: str, output: str) -> None:
-    status, printed, _ = coldspray(*shlex.split(command))
+def test_example_prints_what_the_page_says(command: str, output: str) -> None:
+    with chdir(ROOT):
+        status, printed, _ = coldspray(*shlex.split(command))
     assert status == 0
     head, _, tail = output.partition("...\n")
     assert printed.startswith(head)
     assert printed.endswith(tail)
+
+
+@pytest.mark.parametrize("command", re.findall(r"^\|.*\| `coldspray (.*?)` \|", QUESTIONS, re.M))
+def test_every_question_is_answered_by_its_command(command: str, tmp_path: Path) -> None:
+    """In a folder of its own, as some write files; it has the data of `docs/`."""
+    (tmp_path / "docs").mkdir()
+    shutil.copy(ROOT / "docs" / "fit.csv", tmp_path / "docs")
+    shutil.copytree(ROOT / "docs" / "sweeps", tmp_path / "docs" / "sweeps")
+    with chdir(tmp_path):
+        assert coldspray(*shlex.split(command))[0] == 0
 
 
 def test_there_are_examples_and_those_in_python_run() -> None:
@@ -94,7 +109,14 @@ def test_times_are_those_of_the_whole_table() -> None:
 
 @pytest.mark.parametrize(
     "document",
-    ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/check.md", "docs/sweeps/README.md"],
+    [
+        "README.md",
+        "CONTRIBUTING.md",
+        "CHANGELOG.md",
+        "docs/check.md",
+        "docs/questions.md",
+        "docs/sweeps/README.md",
+    ],
 )
 def test_links_and_paths_lead_somewhere(document: str) -> None:
     text = (ROOT / document).read_text("utf-8")

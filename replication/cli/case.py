@@ -1,10 +1,12 @@
 """The options that name a case and change its inputs; a case in a line, and what is odd in it."""
 
 import argparse
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
+from fractions import Fraction
 from typing import NamedTuple
 
-from replication.cases import BETA_5, CASES, INPUTS, option, read_case
+from reference.units import to_si
+from replication.cases import BETA_5, CASES, INPUTS, inputs_of, option, read_case
 from replication.cli.options import path
 from replication.models.impact import Impact
 from replication.reading import read_number
@@ -15,13 +17,17 @@ OF_THE_SHEET = ("step", "stop_velocity")
 
 
 def add_inputs(
-    parser: argparse.ArgumentParser, *, default: str = "beta-5", with_sheet: bool = True
+    parser: argparse.ArgumentParser,
+    *,
+    default: str = "beta-5",
+    with_sheet: bool = True,
+    without: Collection[str] = (),
 ) -> None:
     """Add --case, --case-file and every input of a case; `default` says which case is the default.
 
     with_sheet: the sheet's step and stop velocity act on the result. If they do not, they are still
     accepted and checked, so that one set of options serves all commands, but the help leaves them
-    out.
+    out. without: further inputs that the help leaves out, as the command refuses them.
     """
     group = parser.add_argument_group(
         "the case",
@@ -36,7 +42,7 @@ def add_inputs(
         value = getattr(BETA_5, name)
         has = "instead of beta and flow stress" if value is None else f"beta-5: {number(value)}"
         meaning = name.replace("_", " ") + ("" if unit == "1" else f" [{unit}]")
-        acts = with_sheet or name not in OF_THE_SHEET
+        acts = (with_sheet or name not in OF_THE_SHEET) and name not in without
         text = f"{meaning} ({has})" if acts else argparse.SUPPRESS
         group.add_argument(option(name), metavar="X", help=text)
 
@@ -46,7 +52,7 @@ def case_of(options: argparse.Namespace) -> tuple[Impact, list[str]]:
 
     Raises ValueError or OSError.
     """
-    given = _given(options)
+    given = given_inputs(options)
     name = "beta-5" if options.case is None else options.case
     case = read_case(name, options.case_file, given)
     return case, doubts(case, given)
@@ -55,10 +61,11 @@ def case_of(options: argparse.Namespace) -> tuple[Impact, list[str]]:
 def is_given(options: argparse.Namespace) -> bool:
     """Return whether any option names or changes a case."""
     named = options.case is not None or options.case_file is not None
-    return named or bool(_given(options))
+    return named or bool(given_inputs(options))
 
 
-def _given(options: argparse.Namespace) -> dict[str, str]:
+def given_inputs(options: argparse.Namespace) -> dict[str, str]:
+    """Return the inputs that options give, as they were typed."""
     values = {name: getattr(options, name) for name in INPUTS}
     return {name: value for name, value in values.items() if value is not None}
 
@@ -98,18 +105,31 @@ def doubts(impact: Impact, given: Collection[str] = ()) -> list[str]:
     ['--radius is 11 m: from 1e-09 to 1 m is expected; did you mean "11 um"?']
     """
     warnings = []
-    for name, (least, greatest, usual) in EXPECTED.items():
-        value, unit = getattr(impact, name), INPUTS[name]
-        if value is None or least <= value <= greatest:
-            continue
-        said = with_unit(number(value, 12), unit)
+    for name in EXPECTED:
+        value = getattr(impact, name)
         named = option(name) if name in given else name.replace("_", " ")
-        range_ = with_unit(f"{number(least)} to {number(greatest)}", unit)
-        meant = f"{number(value, 12)} {usual}"
-        advised = usual != unit and least <= read_number(meant, unit) <= greatest
-        question = f'; did you mean "{meant}"?' if advised else ""
-        warnings.append(f"{named} is {said}: from {range_} is expected{question}")
+        warnings += [] if value is None else doubt(name, value, named)
     return warnings
+
+
+def doubt(name: str, value: float, named: str, *, typed: bool = True) -> list[str]:
+    """Return a warning if no impact has this value of an input, or else none.
+
+    `named` is what the warning calls it: an option, or a cell of a file. typed: somebody wrote the
+    value, and may have left out its unit.
+
+    >>> doubt("velocity", 5e5, "line 3: velocity")
+    ['line 3: velocity is 500000 m/s: from 0.001 to 100000 m/s is expected']
+    """
+    (least, greatest, usual), unit = EXPECTED[name], INPUTS[name]
+    if least <= value <= greatest:
+        return []
+    said = with_unit(number(value, 12), unit)
+    range_ = with_unit(f"{number(least)} to {number(greatest)}", unit)
+    meant = f"{number(value, 12)} {usual}"
+    advised = typed and usual != unit and least <= read_number(meant, unit) <= greatest
+    question = f'; did you mean "{meant}"?' if advised else ""
+    return [f"{named} is {said}: from {range_} is expected{question}"]
 
 
 def in_words(impact: Impact, *, step: bool = False, stop: bool = False) -> str:
@@ -120,18 +140,87 @@ def in_words(impact: Impact, *, step: bool = False, stop: bool = False) -> str:
     >>> in_words(BETA_5)
     'V 500 m/s, R 11 um, rho_p 8900, rho_t 7850 kg/m^3, R_t 5 x 700 MPa'
     """
-    resistance = f"{number(impact.target_resistance / 1e9)} GPa"
-    if impact.beta is not None and impact.flow_stress is not None:
-        resistance = f"{number(impact.beta)} x {number(impact.flow_stress / 1e6)} MPa"
-    parts = [
-        f"V {number(impact.velocity)} m/s",
-        f"R {number(impact.radius * 1e6)} um",
-        f"rho_p {number(impact.particle_density)}",
-        f"rho_t {number(impact.target_density)} kg/m^3",
-        f"R_t {resistance}",
-    ]
+    parts = [inputs_in_words(inputs_of(impact))]
     if step:
         parts.append(f"dt {number(impact.step * 1e9)} ns")
     if stop:
         parts.append(f"stop {number(impact.stop_velocity)} m/s")
     return ", ".join(parts)
+
+
+def inputs_in_words(inputs: Mapping[str, float | None]) -> str:
+    """Return some inputs of a case [SI] as one line, in the symbols of the report.
+
+    A resistance is said by its factors if they are there.
+
+    >>> inputs_in_words({"radius": 11e-6, "particle_density": 8900.0, "flow_stress": 7e8})
+    'R 11 um, rho_p 8900 kg/m^3, Y_t 700 MPa'
+    """
+    known = {name: value for name, value in inputs.items() if value is not None}
+    parts = []
+    if "velocity" in known:
+        parts.append(f"V {number(known['velocity'])} m/s")
+    if "radius" in known:
+        parts.append(f"R {number(known['radius'] * 1e6)} um")
+    densities = [
+        f"{symbol} {number(known[name])}"
+        for name, symbol in (("particle_density", "rho_p"), ("target_density", "rho_t"))
+        if name in known
+    ]
+    if densities:
+        parts.append(f"{', '.join(densities)} kg/m^3")
+    if "beta" in known and "flow_stress" in known:
+        parts.append(f"R_t {number(known['beta'])} x {number(known['flow_stress'] / 1e6)} MPa")
+    elif "beta" in known:
+        parts.append(f"beta {number(known['beta'])}")
+    elif "flow_stress" in known:
+        parts.append(f"Y_t {number(known['flow_stress'] / 1e6)} MPa")
+    elif "resistance" in known:
+        parts.append(f"R_t {number(known['resistance'] / 1e9)} GPa")
+    return ", ".join(parts)
+
+
+def shown_in(name: str) -> str:
+    """Return the unit in which an input is shown: that of the report, for most inputs SI.
+
+    >>> shown_in("resistance"), shown_in("velocity")
+    ('GPa', 'm/s')
+    """
+    return {"radius": "um", "resistance": "GPa", "flow_stress": "MPa"}.get(name, INPUTS[name])
+
+
+def shown(name: str, value: float, digits: int = 8) -> str:
+    """Return a value (SI) of an input to some digits as it is read, and with all digits.
+
+    >>> shown("resistance", 3.5e9), shown("beta", 5.0)
+    ('3.5 GPa (3500000000.0 Pa)', '5 (5.0)')
+    """
+    unit = shown_in(name)
+    short = with_unit(number(Fraction(value) / to_si(unit), digits), unit)
+    return f"{short} ({with_unit(repr(value), INPUTS[name])})"
+
+
+def refuse_sought(quantity: str, given: Mapping[str, str], what_is_done: str) -> None:
+    """Raise ValueError if an option gives the quantity that is sought, or has no say in it.
+
+    R_t = beta Y_t (Eq. 7), so where one of the three is sought, the resistance is not given, and
+    for the resistance neither of its factors.
+
+    >>> refuse_sought("velocity", {"velocity": "500"}, "solved for")
+    Traceback (most recent call last):
+    ValueError: --velocity is what is solved for: leave it out
+    >>> refuse_sought("beta", {"resistance": "3.5 GPa"}, "fitted")
+    Traceback (most recent call last):
+    ValueError: --resistance has no say where the beta is fitted: leave it out
+    """
+    without_say = {
+        "resistance": ("beta", "flow_stress"),
+        "beta": ("resistance",),
+        "flow_stress": ("resistance",),
+    }
+    for name in given:
+        if name == quantity:
+            raise ValueError(f"{option(name)} is what is {what_is_done}: leave it out")
+        if name in without_say.get(quantity, ()):
+            sought = f"the {quantity.replace('_', ' ')} is {what_is_done}"
+            raise ValueError(f"{option(name)} has no say where {sought}: leave it out")

@@ -9,7 +9,7 @@ Zook is fitted to their model.
 
 from dataclasses import asdict, dataclass
 
-from replication.models.depth import final_depth
+from replication.models.depth import final_depth, normalized_depth
 from replication.models.estimates import (
     constant_pressure_depth,
     frank_zook_depth,
@@ -71,6 +71,13 @@ class Rigid(DepthModel):
     def final_depth(self) -> float:
         """X [m], by `depth.final_depth`."""
         return final_depth(**asdict(self))
+
+    @property
+    def normalized_depth(self) -> float:
+        """X/R [1], by `depth.normalized_depth`, which does not depend on the radius."""
+        inputs = asdict(self)
+        del inputs["radius"]
+        return normalized_depth(**inputs)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -34,6 +34,10 @@ from spreadsheets.engines import Engine
             ["converge", "--digits", "3"],
             {"inputs", "levels", "limit", "exact", "exact_at_stop", "digits"},
         ),
+        (
+            ["solve", "velocity", "--depth", "3.3 um"],
+            {"inputs", "quantity", "value", "interval", "depth", "normalized_depth", "condition"},
+        ),
         (["stability", "--random", "500"], {"cases", "random"}),
         (
             ["claims", "depth-beta-5"],
@@ -230,7 +234,13 @@ def test_every_command_takes_quiet(command: str) -> None:
 
 @pytest.mark.parametrize(
     ("command", "acts"),
-    [("depth", False), ("history", False), ("sheet", True), ("converge", True)],
+    [
+        ("depth", False),
+        ("solve", False),
+        ("history", False),
+        ("sheet", True),
+        ("converge", True),
+    ],
 )
 def test_help_lists_only_inputs_that_act(command: str, acts: bool) -> None:
     """Depth and history do not step in time. They still take a step, to be called as others are."""
@@ -312,6 +322,8 @@ def test_verdicts_are_coloured_on_a_terminal(monkeypatch: pytest.MonkeyPatch) ->
     [
         ["converge"],
         ["sheet", "--step", "4 ns"],
+        ["depth", "--models", "--particle-strength", "90 MPa"],
+        ["solve", "target-density", "--depth", "9 um", "--rounded"],
         ["history", "--points", "3"],
         ["claims"],
         ["claims", "eq16"],

@@ -74,7 +74,9 @@ def arguments(draw: st.DrawFn, command: str) -> list[str]:
     return own
 
 
-@pytest.mark.parametrize("command", ["depth", "sheet", "history", "claims"])
+@pytest.mark.parametrize(
+    "command", ["depth", "crater", "solve", "fit", "sheet", "history", "claims"]
+)
 @given(st.data())
 def test_any_arguments(command: str, hostile: Path, data: st.DataObject) -> None:
     """Random arguments, for commands that end soon and write nothing."""

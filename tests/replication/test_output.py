@@ -10,6 +10,7 @@ import pytest
 from running import promised
 
 PRINTED = Path(__file__).with_name("printed")
+FIT = str(Path(__file__).parents[2] / "docs" / "fit.csv")
 
 
 def check(folder: Path, file: str, arguments: list[str], warnings: list[str]) -> None:
@@ -61,6 +62,28 @@ NO_STEPS = "the velocity 0.5 m/s is below the stop velocity 1.0 m/s: no steps"
         ("sheet-no-steps.txt", ["sheet", "--velocity", "0.5"], [NO_STEPS]),
         ("sheet-no-steps.json", ["sheet", "--velocity", "0.5", "--json"], []),
         ("sheet-at-stop.csv", ["sheet", "--velocity", "1", "--csv"], AT_STOP),
+        ("depth-models.txt", ["depth", "--models", "--k-1", "0.5"], []),
+        ("depth-frank-zook.txt", ["depth", "--model", "frank-zook", "--resistance", "7.6 GPa"], []),
+        ("depth-frank-zook.json", ["depth", "--model", "frank-zook-printed", "--json"], []),
+        ("depth-strength.txt", ["depth", "--particle-strength", "90 MPa", "--velocity", "1e3"], []),
+        ("crater.txt", ["crater", "--volume-ratio", "0.06"], []),
+        ("crater-deep.json", ["crater", "--normalized-depth", "3", "--json"], []),
+        ("solve.txt", ["solve", "velocity", "--depth", "3.3 um"], []),
+        (
+            "solve-rounded.txt",
+            ["solve", "beta", "--depth", "3.3 um", "--rounded", "--flow-stress", "700 MPa"],
+            [],
+        ),
+        (
+            "solve-rounded.json",
+            [
+                *("solve", "target-density", "--depth", "8.28 um", "--rounded", "--json"),
+                *("--velocity", "500"),
+            ],
+            [],
+        ),
+        ("fit.txt", ["fit", FIT], []),
+        ("fit-beta.csv", ["fit", FIT, "--quantity", "beta", "--csv"], []),
         ("history-3.txt", ["history", "--points", "3"], []),
         ("history-times.txt", ["history", "--times", "0 ns,5 ns, 1e-6"], []),
     ],

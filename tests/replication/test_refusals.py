@@ -18,8 +18,8 @@ NAMES = (
     "stop_velocity"
 )
 COMMANDS = (
-    "choose one of audit, claims, workbook, sheet, depth, history, converge, stability, sweep, "
-    "bench, check, diff, power"
+    "choose one of audit, claims, workbook, sheet, depth, crater, solve, fit, history, converge, "
+    "stability, sweep, bench, check, diff, power"
 )
 SHEETS = (
     "the sheets are 'Overview', 'Inputs', 'Table A-1', 'Sheet beta 5', 'Figure 3', 'Figure 5', "

@@ -68,8 +68,10 @@ def test_no_solution_is_an_answer_with_its_reason() -> None:
     [
         (BETA_5, "step", 1e-6, "cannot solve for 'step': choose one of resistance, beta, "
          "flow_stress, velocity, radius, particle_density, target_density"),
-        (RIGID, "beta", 1e-6, "the beta is the resistance over the flow_stress: give flow_stress"),
-        (RIGID, "flow_stress", 1e-6, "the flow stress is the resistance over the beta: give beta"),
+        (RIGID, "beta", 1e-6,
+         "the beta is the resistance over the flow stress: give the flow stress"),
+        (RIGID, "flow_stress", 1e-6,
+         "the flow stress is the resistance over the beta: give the beta"),
         (BETA_5, "velocity", 0.0, "depth is 0.0: it must be a finite number greater than zero"),
         (BETA_5, "velocity", 1.0, "velocity is inf for this depth: doubles carry 1e-250 to 1e250 "
          "safely (with depth 1.0, radius 1.1e-05, particle_density 8900.0, target_density 7850.0, "

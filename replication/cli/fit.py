@@ -1,0 +1,147 @@
+"""`coldspray fit`: fit the resistance, or a factor of it, to measured depths."""
+
+import argparse
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from replication.cli.case import (
+    add_inputs,
+    case_of,
+    doubt,
+    given_inputs,
+    inputs_in_words,
+    refuse_sought,
+    shown,
+)
+from replication.cli.options import add_csv_and_json, add_quiet, one_of, path
+from replication.cli.output import filled, put
+from replication.fit import OTHER_FACTOR, Fit, Measurement, check_factor, fit, read_measurements
+from replication.models.depth import final_depth
+from replication.reading import place
+from replication.text import aligned, number, numbers
+
+HELP = "fit the resistance, or beta, to measured velocities and depths"
+EXAMPLE = "coldspray fit measured.csv --quantity beta --flow-stress '700 MPa'"
+
+NAMES = {name.replace("_", "-"): name for name in OTHER_FACTOR}
+"""What can be fitted, as it is typed."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "file", metavar="DATA.csv", type=path,
+        help="columns, each with a head such as 'velocity [m/s]' and 'depth [um]' or "
+        "'normalized depth'; maybe 'uncertainty [um]', of the depths, and the other inputs by name",
+    )  # fmt: skip
+    parser.add_argument(
+        "--quantity", metavar="NAME", type=one_of("quantity", NAMES), default="resistance",
+        help=f"what is fitted: {', '.join(NAMES)} (default: %(default)s)",
+    )  # fmt: skip
+    add_csv_and_json(parser, "print the measurements, with fitted depths and residuals, as CSV")
+    add_quiet(parser)
+    add_inputs(parser, with_sheet=False, without=["velocity"])
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print the fitted value with its standard error, and the residual of every measurement."""
+    quantity, given = NAMES[options.quantity], given_inputs(options)
+    if "velocity" in given:
+        raise ValueError("--velocity: the file has the velocities: leave it out")
+    refuse_sought(quantity, given, "fitted")
+    case, warnings = case_of(options)
+    check_factor(case, quantity)
+    measurements = read_measurements(options.file, case)
+    with place(str(options.file)):
+        fitted = fit(case, measurements, quantity)
+    warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))
+    inputs = _common_inputs(measurements)
+    if other := OTHER_FACTOR[quantity]:
+        inputs[other] = fitted.resistance / fitted.value
+    rows = _rows(fitted, measurements)
+    record = {
+        "inputs": inputs,
+        "quantity": quantity,
+        "value": fitted.value,
+        "standard_error": fitted.standard_error,
+        "resistance": fitted.resistance,
+        "residuals": fitted.residuals,
+        "chi_square": fitted.chi_square,
+        "points": fitted.points,
+        "measurements": rows,
+        "warnings": warnings,
+    }
+    return put(options, record, lambda: _text(fitted, inputs, rows), rows, warnings)
+
+
+def _common_inputs(measurements: Sequence[Measurement]) -> dict[str, float]:
+    """Return the inputs beside the velocity that all measurements have in common."""
+    values = {
+        name: {getattr(m, name) for m in measurements}
+        for name in ("radius", "particle_density", "target_density")
+    }
+    return {name: values[name].pop() for name in values if len(values[name]) == 1}
+
+
+def _doubts(fitted: Fit, measurements: Sequence[Measurement], file: Path) -> list[str]:
+    """Return a warning for the first value of each input that no impact has, and of the result."""
+    warnings = []
+    for name in ("velocity", "radius", "particle_density", "target_density"):
+        words = name.replace("_", " ")
+        for m in measurements:
+            if text := doubt(name, getattr(m, name), f"{file}, line {m.line}: {words}"):
+                warnings += text
+                break
+    quantity = fitted.quantity.replace("_", " ")
+    return warnings + doubt(fitted.quantity, fitted.value, f"the fitted {quantity}", typed=False)
+
+
+def _rows(fitted: Fit, measurements: Sequence[Measurement]) -> list[dict[str, float | None]]:
+    """Return the measurements in SI units, each with its line, its fitted depth and residual."""
+    return [
+        {
+            "line": m.line,
+            "velocity": m.velocity,
+            "radius": m.radius,
+            "particle_density": m.particle_density,
+            "target_density": m.target_density,
+            "depth": m.depth,
+            "uncertainty": m.uncertainty,
+            "fitted_depth": final_depth(*m.impact, fitted.resistance),
+            "residual": residual,
+        }
+        for m, residual in zip(measurements, fitted.residuals, strict=True)
+    ]
+
+
+def _text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[str, Any]]) -> str:
+    """Return the inputs, a table of the measurements, and the fitted value below it."""
+    weighted = fitted.chi_square is not None
+    heads = ("line", "velocity [m/s]", "x [um]", "fitted [um]", "residual [um]")
+    table = [
+        (row["line"], row["velocity"], row["depth"] * 1e6)
+        + tuple(float(f"{row[name] * 1e6:.4g}") for name in ("fitted_depth", "residual"))
+        + ((float(f"{row['residual'] / row['uncertainty']:.3g}"),) if weighted else ())
+        for row in rows
+    ]
+    name = fitted.quantity.replace("_", " ")
+    results = [(name, shown(fitted.quantity, fitted.value))]
+    if fitted.standard_error is None:
+        results.append(("standard error", "unknown: one measurement, without an uncertainty"))
+    else:
+        percent = number(100 * fitted.standard_error / fitted.value, 3)
+        error = shown(fitted.quantity, fitted.standard_error, 3)
+        by = "uncertainties" if weighted else "scatter"
+        results.append(("standard error", f"{error}, {percent} %, by the {by}"))
+    if fitted.chi_square is not None:
+        freedom = fitted.points - 1
+        results.append(("chi square", f"{number(fitted.chi_square, 4)}, {freedom} expected"))
+    return "\n".join(
+        [
+            filled(inputs_in_words(inputs)),
+            "",
+            *numbers((*heads, "over uncertainty") if weighted else heads, table),
+            "",
+            *aligned(results),
+        ]
+    )

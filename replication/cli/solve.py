@@ -1,0 +1,128 @@
+"""`coldspray solve`: print the value of one input of a case that gives a final depth."""
+
+import argparse
+from collections.abc import Mapping
+from fractions import Fraction
+
+from reference.units import to_si
+from replication.cases import option
+from replication.cli.case import (
+    add_inputs,
+    case_of,
+    doubt,
+    given_inputs,
+    inputs_in_words,
+    refuse_sought,
+    shown,
+    shown_in,
+)
+from replication.cli.options import add_json, add_quiet, one_of
+from replication.cli.output import filled, put, width
+from replication.models.impact import Impact, InputError
+from replication.reading import place, quoted, read_number
+from replication.solve import DEPTHS, QUANTITIES, Solution, solve, solve_printed
+from replication.text import between, columns, number, with_unit
+
+HELP = "print the resistance, velocity, ... that gives a final depth"
+EXAMPLE = "coldspray solve resistance --depth '3.3 um' --rounded"
+
+NAMES = {name.replace("_", "-"): name for name in QUANTITIES}
+"""The quantities, as they are typed."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "quantity", metavar="QUANTITY", type=one_of("quantity", NAMES),
+        help=f"what is sought: {', '.join(NAMES)}",
+    )  # fmt: skip
+    wanted = parser.add_mutually_exclusive_group(required=True)
+    wanted.add_argument("--depth", metavar="X", help='final depth [m], such as "3.3 um"')
+    wanted.add_argument("--normalized-depth", metavar="Y", help="final depth over the radius, X/R")
+    parser.add_argument(
+        "--rounded", action="store_true",
+        help="take the depth, and every input that an option gives, as printed text: the answer is "
+        "a proven range, for all values that print so; what the case has is exact",
+    )  # fmt: skip
+    add_json(parser)
+    add_quiet(parser)
+    add_inputs(parser, with_sheet=False)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print the value, its range and its condition; status 1 if no value gives the depth."""
+    quantity, given = NAMES[options.quantity], given_inputs(options)
+    refuse_sought(quantity, given, "solved for")
+    case, warnings = case_of(options)
+    name = "normalized_depth" if options.depth is None else "depth"
+    text: str = getattr(options, name)
+    texts = {name: text, **{key: x for key, x in given.items() if key in QUANTITIES}}
+    depth = _depth(name, text, quantity, case)
+    try:
+        if options.rounded:
+            answer = solve_printed(case, quantity, texts)
+        else:
+            answer = solve(case, quantity, depth)
+    except InputError as error:
+        if quantity == "radius":
+            raise
+        radii = f"{depth / case.radius:.3g} times the radius"
+        raise ValueError(f"{option(name)}: the depth is {radii}: {error}") from error
+    if answer.value is not None:
+        named = f"the {_words(quantity)} for this depth"
+        warnings += doubt(quantity, answer.value, named, typed=False)
+    record = {
+        "inputs": dict(answer.inputs),
+        "quantity": quantity,
+        "value": answer.value,
+        "interval": answer.interval,
+        "depth": answer.depth,
+        "normalized_depth": answer.normalized_depth,
+        "condition": answer.condition,
+        "reason": answer.reason or None,
+        "warnings": warnings,
+    }
+    put(options, record, lambda: _text(answer, texts), warnings=warnings)
+    return 0 if answer.value is not None or answer.interval is not None else 1
+
+
+def _depth(name: str, text: str, quantity: str, case: Impact) -> float:
+    """Read the depth, or the normalized depth, and return the depth [m]."""
+    with place(option(name)):
+        value = read_number(text, DEPTHS[name])
+        if value <= 0:
+            raise ValueError(f"{quoted(text)} is not greater than zero")
+        if name == "normalized_depth" and quantity == "radius":
+            raise ValueError("it does not depend on the radius: give --depth")
+    return value if name == "depth" else value * case.radius
+
+
+def _text(answer: Solution, texts: Mapping[str, str]) -> str:
+    """Return the inputs, the depth, and the answer with its range and condition."""
+    rows = [("depth", f"{number(answer.depth * 1e6, 8)} um ({answer.depth!r} m)")]
+    if answer.normalized_depth is not None:
+        rows.append(("normalized depth", number(answer.normalized_depth, 8)))
+    name = _words(answer.quantity)
+    if answer.value is None:
+        rows.append((name, f"none: {answer.reason.replace(answer.quantity, f'the {name}')}"))
+    else:
+        rows.append((name, shown(answer.quantity, answer.value)))
+    if answer.interval is not None:
+        rows.append(("range", _range(answer, texts)))
+    if answer.condition is not None:
+        means = "relative change of it for one of the depth"
+        rows.append(("condition", f"{number(answer.condition, 3)}: {means}"))
+    return f"{filled(inputs_in_words(answer.inputs))}\n\n{columns(rows, min(width(), 100))}"
+
+
+def _range(answer: Solution, texts: Mapping[str, str]) -> str:
+    """Return the interval, rounded outward, and for which texts it is proven."""
+    assert answer.interval is not None
+    unit = shown_in(answer.quantity)
+    ends = [Fraction(end) / to_si(unit) for end in answer.interval]
+    alike = ", ".join(f"{_words(name)} {text}" for name, text in texts.items())
+    proven = f"{with_unit(between(ends, 5), unit)}, proven for all that prints as {alike}"
+    return proven if answer.interval[0] > 0 else f"{proven}; for some of that there is none"
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ")

@@ -1,0 +1,117 @@
+"""`coldspray fit`: files of measurements at the command line. The fits are in `test_fit.py`."""
+
+import json
+from pathlib import Path
+
+import pytest
+from running import coldspray
+
+from replication import BETA_5
+from replication.fit import fit, read_measurements
+
+EXAMPLE = Path(__file__).parents[2] / "docs" / "fit.csv"
+
+
+@pytest.mark.parametrize("typed", ["resistance", "beta", "flow-stress"])
+def test_json_has_the_promised_keys_and_the_fit_of_python(typed: str) -> None:
+    status, out, err = coldspray("fit", EXAMPLE, "--quantity", typed, "--json")
+    record, quantity = json.loads(out), typed.replace("-", "_")
+    expected = fit(BETA_5, read_measurements(EXAMPLE, BETA_5), quantity)
+    assert (status, err) == (0, "")
+    assert record["quantity"] == quantity
+    assert record["value"] == expected.value
+    assert record["standard_error"] == expected.standard_error
+    assert record["residuals"] == list(expected.residuals)
+    assert record["points"] == 11
+
+
+def test_the_other_factor_is_the_cases() -> None:
+    values = [
+        json.loads(coldspray("fit", EXAMPLE, "--quantity", "beta", *more, "--json")[1])
+        for more in ((), ("--flow-stress", "350 MPa"))
+    ]
+    assert values[1]["value"] == 2 * values[0]["value"]  # a power of two: no rounding
+    assert values[1]["inputs"]["flow_stress"] == 350e6
+
+
+def test_inputs_by_row_are_not_said_to_be_common(tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text("v,x [um],radius [um]\n500,7.6,11\n500,3.5,5\n", "utf-8")
+    record = json.loads(coldspray("fit", file, "--json")[1])
+    assert record["inputs"] == {"particle_density": 8900.0, "target_density": 7850.0}
+
+
+def test_normalized_depths_and_their_uncertainties_are_times_the_radius(tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    for head in ("X/R", "normalized depth [1]", "Normalized depth [-]"):
+        file.write_text(f"v,{head},sigma,R [um]\n500,0.5,0.25,8\n", "utf-8")
+        (measurement,) = read_measurements(file, BETA_5)
+        assert (measurement.depth, measurement.uncertainty) == (4e-6, 2e-6)
+
+
+def test_without_uncertainties_the_scatter_gives_the_error(tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text("v,x [um]\n500,7.6\n450,7\n", "utf-8")
+    out = coldspray("fit", file)[1]
+    assert ", by the scatter\n" in out
+    assert "chi square" not in out
+    file.write_text("v,x [um]\n500,7.6\n", "utf-8")
+    assert "standard error  unknown: one measurement, without" in coldspray("fit", file)[1]
+
+
+@pytest.mark.parametrize(
+    ("content", "line"),
+    [
+        ("v,x [um]\n500,7.6\n400,?\n,3\n", "FILE, line 4, column 'v': the cell is empty"),
+        ("v,x [um]\n500,7.6\n400,?\n300,\n", "FILE, line 3, column 'x [um]': '? um' is not a "
+         "finite number with or without a unit, such as '1 m' (line 4, too)"),
+        ("v,x [um]\n0,7.6\n", "FILE, line 2: velocity is 0.0: it must be a finite number greater "
+         "than zero"),
+        ("v [MPa],x\n500,7.6\n", "FILE, column 'v [MPa]': '1 MPa': MPa does not measure what m/s "
+         "does"),
+        ("v,x,X/R\n500,7.6,1\n", "FILE has both a depth and a normalized depth: leave one of them "
+         "out"),
+        ("v\n500\n", "FILE has no column 'depth': name one so, such as 'depth [m]' (it has 'v')"),
+        ("v,x\n500,7.6\n", "FILE: line 2: the depth is 6.91e+05 times the radius: resistance is "
+         "0.0 for this depth: doubles carry 1e-250 to 1e250 safely (with depth 7.6, velocity "
+         "500.0, radius 1.1e-05, particle_density 8900.0, target_density 7850.0)"),
+        ("v,x\n", "FILE: has no row of numbers below a row of heads"),
+    ],
+)  # fmt: skip
+def test_bad_rows_are_named_by_file_line_and_column(
+    content: str, line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mine.csv").write_text(content, "utf-8")
+    line = line.replace("FILE", "mine.csv")
+    assert coldspray("fit", "mine.csv") == (2, "", f"coldspray fit: {line}\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "line"),
+    [
+        ("--velocity 400", "--velocity: the file has the velocities: leave it out"),
+        ("--resistance 3e9", "--resistance is what is fitted: leave it out"),
+        ("--quantity beta --resistance 3e9",
+         "--resistance has no say where the beta is fitted: leave it out"),
+        ("--quantity velocity", "argument --quantity: there is no quantity 'velocity': choose one "
+         "of resistance, beta, flow-stress (see coldspray fit --help)"),
+    ],
+)  # fmt: skip
+def test_options_that_say_nothing_are_refused(arguments: str, line: str) -> None:
+    assert coldspray("fit", EXAMPLE, *arguments.split()) == (2, "", f"coldspray fit: {line}\n")
+
+
+def test_a_case_without_the_other_factor_cannot_give_this_one(tmp_path: Path) -> None:
+    file = tmp_path / "case.toml"
+    file.write_text("[impact]\nresistance = 3e9\n", "utf-8")
+    done = coldspray("fit", EXAMPLE, "--quantity", "beta", "--case-file", file)
+    line = "the beta is the resistance over the flow stress: give the flow stress"
+    assert done == (2, "", f"coldspray fit: {line}\n")
+
+
+def test_a_value_that_no_impact_has_is_named_by_its_line(tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text("v [km/s],x [um]\n500,7.6\n400,6.1\n", "utf-8")
+    warning = f"{file}, line 2: velocity is 500000 m/s: from 0.001 to 100000 m/s is expected"
+    assert f"coldspray fit: warning: {warning}\n" in coldspray("fit", file)[2]
