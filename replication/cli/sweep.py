@@ -27,7 +27,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", metavar="FILE", type=path,
         help="ends in .csv or .parquet (default: the plan's name with .csv, in this folder)",
     )  # fmt: skip
-    add_plot(parser, data="the varied input, and depth or normalized depth; of draws without it")
+    add_plot(parser, data="the varied input (if any), and depth or normalized depth")
     add_json(parser, "print JSON: file, cases, columns")
     add_quiet(parser, "no progress, no closing line")
 
