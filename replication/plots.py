@@ -510,6 +510,8 @@ MOST_DRAWN = 1_000_000
 QUANTILES = {0.05: ":", 0.5: "-", 0.95: ":"}
 """The quantiles that a histogram shows, with the dashes of their lines."""
 
+_QUANTILES_TITLE = "quantiles of 5, 50 and 95 %"
+
 Results = Mapping[str, Any]
 """Columns of a sweep (SI), inputs and results, each of the shape (cases,)."""
 
@@ -748,11 +750,8 @@ def _histograms(
         for label, look, at in _series(axes, axes, results):
             own = table[at]
             quantiles = np.quantile(own, list(QUANTILES))
-            shares = "; ".join(
-                f"{100 * share:g} %: {number(value, 3)}"
-                for share, value in zip(QUANTILES, quantiles, strict=True)
-            )
-            words = f"{label}: {shares}" if label else shares
+            numbers = ", ".join(number(float(value), 3) for value in quantiles)
+            words = f"{label}: {numbers}" if label else numbers
             heights, _ = np.histogram(own, edges, density=True)
             panel.stairs(heights, edges, label=words, color=look.color, linestyle=look.line, lw=1.2)
             for value, dashes in zip(quantiles, QUANTILES.values(), strict=True):
@@ -765,5 +764,5 @@ def _histograms(
         panel.set_ylabel(f"Probability density [{unit}]")
         panel.margins(y=0.25)
         panel.set_ylim(bottom=0)
-        panel.legend(loc="upper right", fontsize=8)
+        panel.legend(loc="upper right", fontsize=8, title=_QUANTILES_TITLE, title_fontsize=8)
     return figure

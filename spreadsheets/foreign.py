@@ -26,6 +26,7 @@ from openpyxl.formula.tokenizer import TokenizerError
 from openpyxl.formula.translate import Translator, TranslatorError
 from openpyxl.utils.cell import coordinate_to_tuple, get_column_letter, range_boundaries
 
+from spreadsheets import separated
 from spreadsheets.engines import address, office, run_program
 from spreadsheets.safely import UNREADABLE
 
@@ -133,7 +134,9 @@ _BLANK = Cell(None, None)
 
 
 def read(path: Path) -> Book:
-    """Read an .xlsx or .xlsm file; or an .xls, .xlsb or .ods file by way of LibreOffice.
+    """Read an .xlsx or .xlsm file; an .xls, .xlsb or .ods file by way of LibreOffice; or a .csv.
+
+    A text file of separated values (`separated`) is one sheet, "CSV", whose rows are its lines.
 
     Raises WorkbookError, naming the file, if it is not a workbook, is damaged, or exceeds a limit
     of this module; OSError if it cannot be opened.
@@ -155,6 +158,8 @@ def _read(path: Path) -> Book:
     if _is_xlsx(path):
         with zipfile.ZipFile(path) as archive:
             return _Reader(archive, path).book()
+    if path.suffix.lower() in separated.SUFFIXES:
+        return _of_text(path)
     if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
         with path.open("rb") as file:
             start = file.read(len(_OLE_START))
@@ -172,6 +177,15 @@ def _read(path: Path) -> Book:
     note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"
     resolution = _ODS_RESOLUTION if path.suffix.lower() == ".ods" else 0.0
     return replace(book, notes=(note, *book.notes), resolution=resolution)
+
+
+def _of_text(path: Path) -> Book:
+    """Return the one sheet of a text file of separated values."""
+    try:
+        values = separated.cells_of(path.read_bytes(), MAX_CELLS)
+    except ValueError as error:
+        raise WorkbookError(str(error)) from error
+    return Book(path, {"CSV": {place: Cell(None, value) for place, value in values.items()}}, {})
 
 
 def _is_xlsx(path: Path) -> bool:

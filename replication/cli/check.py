@@ -1,4 +1,4 @@
-"""`coldspray check`: check somebody's own workbook of the report's sheet."""
+"""`coldspray check`: check somebody's own workbook of the report's sheet, or rows of numbers."""
 
 import argparse
 from functools import partial
@@ -12,8 +12,9 @@ EXAMPLE = "coldspray check mine.xlsx --map 'depth=Sheet1!D8:D139'"
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "file", metavar="FILE", type=path, help="an .xlsx file; or .xlsm, .xls, .xlsb, .ods"
-    )
+        "file", metavar="FILE", type=path,
+        help="an .xlsx file; or .xlsm, .xls, .xlsb, .ods; or the rows that a program wrote, .csv",
+    )  # fmt: skip
     parser.add_argument(
         "--map", metavar="NAME=RANGE", action="append", default=[],
         help="where a column or an input is: depth=Sheet1!D8:D139, radius=B4; may be repeated",
