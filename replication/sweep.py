@@ -117,6 +117,22 @@ class Plan:
         return {name: source.count for name, source in self.sources.items() if source.count}
 
     @property
+    def axes(self) -> dict[str, int]:
+        """The number of values of each listed input that has several, the slowest first."""
+        return {name: count for name, count in self.grid.items() if count > 1}
+
+    @property
+    def is_drawn(self) -> bool:
+        """Whether any input is drawn at random."""
+        return any(source.count is None for source in self.sources.values())
+
+    @property
+    def constants(self) -> dict[str, float]:
+        """The inputs [SI] that are the same in all cases."""
+        only = {name: source for name, source in self.sources.items() if source.count == 1}
+        return {name: source.bounds[0] for name, source in only.items()}
+
+    @property
     def count(self) -> int:
         """Number of cases."""
         return self.samples * math.prod(self.grid.values())

@@ -262,7 +262,8 @@ def _draw(
 ) -> None:  # fmt: skip
     """Draw the chart of the sheet `name` on its page; `shown` is what the sheet's cells show."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
-    for curve, look in zip(chart.curves, CURVES, strict=False):
+    for curve in chart.curves:
+        look = CURVES[curve.beta]
         settings = {
             "name": f"={_absolute(*curve.name)}",
             "categories": f"={_absolute(name, curve.x)}",

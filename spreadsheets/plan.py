@@ -103,11 +103,15 @@ class Rule(NamedTuple):
 
 
 class Curve(NamedTuple):
-    """A curve of a chart: the place of its name, and the ranges of x and y, such as "A5:A25"."""
+    """A curve of a chart: the place of its name, and the ranges of x and y, such as "A5:A25".
+
+    beta: "3" or "5", of the report's case that it shows or is compared with: it sets the look.
+    """
 
     name: Place
     x: str
     y: str
+    beta: str
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -1,6 +1,6 @@
 """How the workbook looks, in properties of XlsxWriter: one font, light fills, thin lines."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 _GRAY, _LINE, _INPUT = "#5A5A5A", "#D0D7DE", "#0000FF"
@@ -50,8 +50,12 @@ class Look(NamedTuple):
     marker: str
 
 
-CURVES: Sequence[Look] = (
-    Look("#1F4E9E", "solid", "circle"),
-    Look("#C55A11", "dash", "square"),
-)
-"""The curves of a chart in order, which can be told apart even without color."""
+CURVES: Mapping[str, Look] = {
+    "3": Look("#d55e00", "solid", "circle"),
+    "5": Look("#0072b2", "dash", "square"),
+}
+"""The curve of a case by its beta, in the workbook, on the page and in all other figures.
+
+They can be told apart even without color. The colors are vermilion and blue of Okabe and Ito's
+palette, which stand out from white, from near-black and, for the color-blind too, from each other.
+"""

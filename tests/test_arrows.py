@@ -20,7 +20,7 @@ FLOORS: tuple[set[str], ...] = (
     {"cases", "columns"},
     {"error", "fit", "solve"},
     {"audit"},
-    {"workbook", "power"},
+    {"workbook", "power", "plots"},
     {"bench", "sweep", "check", "report"},
     {"cli"},
     {"__main__", ""},

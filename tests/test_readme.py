@@ -13,6 +13,7 @@ from collections.abc import Callable
 from contextlib import chdir
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree as ET
 
 import pytest
 from running import coldspray
@@ -54,6 +55,14 @@ def test_every_question_is_answered_by_its_command(command: str, tmp_path: Path)
     shutil.copytree(ROOT / "docs" / "sweeps", tmp_path / "docs" / "sweeps")
     with chdir(tmp_path):
         assert coldspray(*shlex.split(command))[0] == 0
+    for figure in tmp_path.glob("*.svg"):
+        assert texts_of(figure) == texts_of(ROOT / "docs" / "plots" / figure.name)
+
+
+def texts_of(figure: Path) -> list[str]:
+    """Return what a figure says: titles, labels, and the numbers at its axes."""
+    texts = ET.parse(figure).iter("{http://www.w3.org/2000/svg}text")
+    return ["".join(text.itertext()) for text in texts]
 
 
 def test_there_are_examples_and_those_in_python_run() -> None:

@@ -1,18 +1,21 @@
 """The results of a run as text, JSON and CSV, and a figure for each case."""
 
-import io
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import groupby
 from operator import itemgetter
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from replication.bench.measure import MEASURES, Point, met, ranked
 from replication.bench.peers import SOLVERS
+from replication.plots import INK, SHADE, content, styled
 from replication.text import aligned, columns, json_text, number, rows_csv
 from spreadsheets.safely import write_folder
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 _HEAD = """\
 The sheet is measured down to its stop velocity: its final depth against the exact one there, its \
@@ -102,48 +105,88 @@ def _span(values: Sequence[float]) -> str:
     return least if least == most else f"{least} to {most}"
 
 
-_STYLE: Any = {
-    "font.family": "DejaVu Sans",  # comes with matplotlib, so that every machine has it
-    "font.size": 9,
-    "axes.spines.top": False,
-    "axes.spines.right": False,
-    "axes.grid": True,
-    "grid.color": "#E5E5E5",
-    "grid.linewidth": 0.6,
-    "lines.linewidth": 1.0,
-    "lines.markersize": 4,
-    "svg.hashsalt": "coldspray",  # otherwise ids in the file would differ from run to run
-    "svg.fonttype": "none",
-}
-
-
 def figure(case: dict[str, Any]) -> bytes:
-    """Draw error against time for one case, as SVG on a white background."""
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-    from matplotlib.rcsetup import cycler
+    """Draw error against time for one case, as SVG on a white background.
 
-    content, methods = io.BytesIO(), dict.fromkeys(point["method"] for point in case["points"])
-    colors = mpl.colormaps["tab20"](range(20))
-    looks = cycler(linestyle=("-", "--")) * cycler(color=list(colors))
-    with mpl.rc_context({**_STYLE, "axes.prop_cycle": looks}):
-        drawn = Figure(figsize=(12, 5.5), layout="constrained")
+    Each line is labelled by its method: this project's in black with filled marks, others in gray
+    with hollow ones. Methods that are timed on many cases at once are dashed.
+    """
+    from matplotlib.figure import Figure
+
+    with styled():
+        drawn = Figure(figsize=(12, 6.5), layout="constrained")
         for panel, measure in zip(drawn.subplots(1, 2), MEASURES, strict=True):
             panel.set(xscale="log", yscale="log", title=f"{case['name']}: {MEASURES[measure]}")
-            panel.set(xlabel="time a case [s]", ylabel="relative error")
+            panel.set(xlabel="Time a case [s]", ylabel="Relative error [1]")
             points = [point for point in case["points"] if point["measure"] == measure]
-            for method in methods:
-                line = _line(point for point in points if point["method"] == method)
-                is_peer = method in SOLVERS or "Numba" in method or "bare" in method
-                panel.plot(*line, marker="o" if is_peer else "s", label=method)
             front = [point for point in ranked(points, measure, many=False) if point["front"]]
-            edge: Any = {"label": "Pareto front, one case at a time", "color": "#D55E00"}
-            panel.step(*_line(front), "-", where="post", linewidth=6, alpha=0.2, **edge)
-        labels = panel.get_legend_handles_labels()
-        drawn.legend(*labels, loc="outside lower center", ncols=5, frameon=False)
-        # Without a date, the same numbers give the same file.
-        drawn.savefig(content, format="svg", metadata={"Date": None})
-    return content.getvalue()
+            band: Any = {
+                "color": SHADE,
+                "alpha": 0.3,
+                "linewidth": 6,
+                "marker": "o",
+                "markersize": 10,
+            }
+            panel.step(*_line(front), "-", where="post", **band, label="Pareto front, single cases")
+            ends: dict[str, tuple[float, float]] = {}
+            for method in dict.fromkeys(point["method"] for point in points):
+                times, errors = _line(point for point in points if point["method"] == method)
+                panel.plot(times, errors, **_look(method))
+                reached = ~np.isnan(times)
+                if reached.any():
+                    ends[method] = times[reached][-1], errors[reached][-1]
+            panel.set_ylim(bottom=2.0**-55)  # four times below half an ulp, the least that is drawn
+            _label(panel, ends)
+        handles, labels = panel.get_legend_handles_labels()
+        drawn.legend(handles, labels, loc="outside lower left")
+        return content(drawn)
+
+
+def _look(method: str) -> dict[str, Any]:
+    """Return how the line of a method is drawn."""
+    is_peer = method in SOLVERS or "Numba" in method or "bare" in method
+    look: dict[str, Any] = {"color": "#6e7781" if is_peer else INK}
+    look |= {"marker": "o", "markerfacecolor": "none" if is_peer else INK}
+    return look | {"linestyle": "--" if method.endswith("many") else "-"}
+
+
+LABEL_GAP = 0.036
+"""The least distance of two labels beside a panel, as a share of its height: a line of text."""
+
+
+def _label(panel: "Axes", ends: Mapping[str, tuple[float, float]]) -> None:
+    """Write the methods beside a panel; a thin line leads from each to the last point of its line.
+
+    A label stands as high as that point, or as near to it as those of other methods leave room.
+    """
+    by_error = sorted(ends, key=lambda method: (ends[method][1], ends[method][0]))
+    to_share = panel.transData + panel.transAxes.inverted()
+    heights = [float(to_share.transform(ends[method])[1]) for method in by_error]
+    for method, height in zip(by_error, spread(heights, LABEL_GAP), strict=True):
+        panel.annotate(
+            method, ends[method], xytext=(1.04, height), textcoords="axes fraction", va="center",
+            fontsize=8, color=_look(method)["color"],
+            arrowprops={
+                "arrowstyle": "-", "color": SHADE, "linewidth": 0.5, "relpos": (0, 0.5),
+                "shrinkB": 3,
+            },
+        )  # fmt: skip
+
+
+def spread(heights: Sequence[float], gap: float) -> list[float]:
+    """Move rising heights apart, to a gap at least, and down again where they pass 1.
+
+    >>> spread([0.1, 0.1, 0.5, 1.0, 1.0], 0.25)
+    [0.0, 0.25, 0.5, 0.75, 1.0]
+    """
+    moved: list[float] = []
+    for height in heights:
+        moved.append(max(height, moved[-1] + gap) if moved else height)
+    limit = 1.0
+    for k in reversed(range(len(moved))):
+        moved[k] = min(moved[k], limit)
+        limit = moved[k] - gap
+    return moved
 
 
 def _line(points: Iterable[Point]) -> Any:

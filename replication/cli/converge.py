@@ -2,14 +2,21 @@
 
 import argparse
 from collections.abc import Mapping, Sequence
-from typing import Any
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 from reference.scheme import Scheme
 from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme, times, whole
 from replication.cli.output import filled, put, width
+from replication.cli.picture import add_plot, checked, draw
 from replication.models.impact import Impact
 from replication.text import columns, number
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from replication.plots import Points
 
 Level = Mapping[str, Any]
 """The results at one time step, as the JSON has them."""
@@ -37,6 +44,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     add_csv_and_json(parser, "print the steps as CSV")
     add_quiet(parser)
+    add_plot(parser, data="step, and error or depth")
     add_inputs(parser)
 
 
@@ -45,6 +53,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.error.ladder import GOVERNED_BY, converge, ladder, step_for_digits
 
     (case, warnings), scheme = case_of(options), options.scheme
+    points = checked(options, _own_points, options.case_file)
     if options.steps is None:
         steps = ladder(case.step, options.levels)
     else:
@@ -52,11 +61,25 @@ def run(options: argparse.Namespace) -> int:
     record = converge(case, steps, scheme)
     record["digits"] = options.digits and step_for_digits(case, options.digits, scheme)
     record["warnings"] = warnings
+    draw(options, lambda: _figure(case, record, points))
     rows = [level | level["budget"] for level in record["levels"]]
     for row in rows:
         del row["budget"], row["warnings"], row["warned_of"]
     notes = _notes(record["levels"])
     return put(options, record, lambda: _text(case, record, GOVERNED_BY), rows, warnings, notes)
+
+
+def _own_points(file: Path) -> "Points":
+    from replication.plots import DEPTH, ERROR, STEP, read_points
+
+    return read_points(file, STEP, (ERROR, DEPTH))
+
+
+def _figure(case: Impact, record: Mapping[str, Any], points: "Points | None") -> "Figure":
+    from replication.plots import plot_converge
+
+    title = f"{in_words(case, stop=True)}, {record['scheme']} scheme"
+    return plot_converge(case, record, title, points)
 
 
 def _notes(levels: Sequence[Level]) -> list[str]:

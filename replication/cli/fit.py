@@ -3,7 +3,7 @@
 import argparse
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from replication.cli.case import (
     add_inputs,
@@ -16,10 +16,14 @@ from replication.cli.case import (
 )
 from replication.cli.options import add_csv_and_json, add_quiet, one_of, path
 from replication.cli.output import filled, put
+from replication.cli.picture import add_plot, checked, draw
 from replication.fit import OTHER_FACTOR, Fit, Measurement, check_factor, fit, read_measurements
 from replication.models.depth import final_depth
 from replication.reading import place
 from replication.text import aligned, number, numbers
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 HELP = "fit the resistance, or beta, to measured velocities and depths"
 EXAMPLE = "coldspray fit measured.csv --quantity beta --flow-stress '700 MPa'"
@@ -40,6 +44,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     add_csv_and_json(parser, "print the measurements, with fitted depths and residuals, as CSV")
     add_quiet(parser)
+    add_plot(parser)
     add_inputs(parser, with_sheet=False, without=["velocity"])
 
 
@@ -51,6 +56,7 @@ def run(options: argparse.Namespace) -> int:
     refuse_sought(quantity, given, "fitted")
     case, warnings = case_of(options)
     check_factor(case, quantity)
+    checked(options, lambda _: None, options.file, options.case_file)
     measurements = read_measurements(options.file, case)
     with place(str(options.file)):
         fitted = fit(case, measurements, quantity)
@@ -59,6 +65,7 @@ def run(options: argparse.Namespace) -> int:
     if other := OTHER_FACTOR[quantity]:
         inputs[other] = fitted.resistance / fitted.value
     rows = _rows(fitted, measurements)
+    draw(options, lambda: _figure(options.file, fitted, measurements, inputs))
     record = {
         "inputs": inputs,
         "quantity": quantity,
@@ -72,6 +79,14 @@ def run(options: argparse.Namespace) -> int:
         "warnings": warnings,
     }
     return put(options, record, lambda: _text(fitted, inputs, rows), rows, warnings)
+
+
+def _figure(
+    file: Path, fitted: Fit, measurements: Sequence[Measurement], inputs: Mapping[str, float]
+) -> "Figure":
+    from replication.plots import plot_fit
+
+    return plot_fit(measurements, fitted, inputs_in_words(inputs), file.name)
 
 
 def _common_inputs(measurements: Sequence[Measurement]) -> dict[str, float]:

@@ -1,12 +1,22 @@
 """`coldspray history`: print the exact depth and velocity of a case against time."""
 
 import argparse
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, times, whole
 from replication.cli.output import filled, put
+from replication.cli.picture import add_plot, checked, draw
+from replication.models.impact import Impact
 from replication.text import number, numbers
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from replication.plots import Points
 
 HELP = "print the exact depth and velocity of a case against time"
 EXAMPLE = "coldspray history --times '0 ns,5 ns,10 ns'"
@@ -24,6 +34,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     wanted.add_argument("--times", metavar="T,...", help='these times, such as "0 ns,5 ns"')
     add_csv_and_json(parser)
     add_quiet(parser)
+    add_plot(parser, data="time, and depth or velocity")
     add_inputs(parser, with_sheet=False)
 
 
@@ -32,6 +43,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.models.motion import history, stop_time
 
     case, warnings = case_of(options)
+    points = checked(options, _own_points, options.case_file)
     stop = stop_time(**case.motion)
     if options.times is None:
         asked = [stop * (k / (options.points - 1)) for k in range(options.points)]
@@ -40,6 +52,7 @@ def run(options: argparse.Namespace) -> int:
     depth, velocity = [0.0] * len(asked), [0.0] * len(asked)
     history(asked, **case.motion, depth=depth, speed=velocity)
     lists = {"time": asked, "depth": depth, "velocity": velocity}
+    draw(options, lambda: _figure(case, lists, points))
     table = list(zip(*lists.values(), strict=True))
 
     def text() -> str:
@@ -52,3 +65,17 @@ def run(options: argparse.Namespace) -> int:
     record = {"inputs": inputs_of(case), **lists, "stop_time": stop, "warnings": warnings}
     rows = [dict(zip(lists, row, strict=True)) for row in table] if options.csv else []
     return put(options, record, text, rows, warnings)
+
+
+def _own_points(file: Path) -> "Points":
+    from replication.plots import DEPTH, SPEED, TIME, read_points
+
+    return read_points(file, TIME, (DEPTH, SPEED))
+
+
+def _figure(
+    case: Impact, lists: Mapping[str, Sequence[float]], points: "Points | None"
+) -> "Figure":
+    from replication.plots import plot_history
+
+    return plot_history(case, **lists, title=in_words(case), points=points)

@@ -1,13 +1,21 @@
 """`coldspray sheet`: print the rows of the Excel sheet for a case."""
 
 import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme
 from replication.cli.output import filled, put
+from replication.cli.picture import add_plot, checked, draw
 from replication.models.sheet import Sheet
 from replication.text import number, numbers
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from replication.plots import Points
 
 HELP = "print the rows of the Excel sheet for a case"
 EXAMPLE = "coldspray sheet --case beta-3 --step '1 ns'"
@@ -17,6 +25,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_scheme(parser)
     add_csv_and_json(parser)
     add_quiet(parser)
+    add_plot(parser, data="time, and depth or velocity")
     add_inputs(parser)
 
 
@@ -26,7 +35,9 @@ def run(options: argparse.Namespace) -> int:
     from replication.models import sheet
 
     case, warnings = case_of(options)
+    points = checked(options, _own_points, options.case_file)
     result = sheet.run(case, options.scheme)
+    draw(options, lambda: _figure(result, points))
     rows = [row._asdict() for row in result.rows] if options.json or options.csv else []
     doubts = error.warnings(result)
     notes = [words for kind, words in doubts.items() if kind in error.NOTES]
@@ -55,3 +66,15 @@ def _text(sheet: Sheet) -> str:
     )
     case = filled(in_words(sheet.impact, step=True, stop=True))
     return "\n".join([case, "", *numbers(heads, table), "", results])
+
+
+def _own_points(file: Path) -> "Points":
+    from replication.plots import DEPTH, SPEED, TIME, read_points
+
+    return read_points(file, TIME, (DEPTH, SPEED))
+
+
+def _figure(sheet: Sheet, points: "Points | None") -> "Figure":
+    from replication.plots import plot_sheet
+
+    return plot_sheet(sheet, in_words(sheet.impact, step=True, stop=True), points)

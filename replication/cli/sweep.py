@@ -2,10 +2,18 @@
 
 import argparse
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from replication.cli.options import add_json, add_quiet, path
 from replication.cli.output import progress, put
+from replication.cli.picture import add_plot, checked, drafted
 from replication.reading import one_line, place
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from replication.plots import Points
+    from replication.sweep import Plan
 
 HELP = "run many cases from a TOML plan, to CSV or Parquet"
 EXAMPLE = "coldspray sweep docs/sweeps/grid.toml -o grid.parquet"
@@ -19,6 +27,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "-o", "--output", metavar="FILE", type=path,
         help="ends in .csv or .parquet (default: the plan's name with .csv, in this folder)",
     )  # fmt: skip
+    add_plot(parser, data="the varied input (if any), and depth or normalized depth")
     add_json(parser, "print JSON: file, cases, columns")
     add_quiet(parser, "no progress, no closing line")
 
@@ -32,9 +41,30 @@ def run(options: argparse.Namespace) -> int:
     check_output(output)
     if output.resolve() == options.plan.resolve():
         raise ValueError(f"{output} is the plan itself: give another -o")
+    points = _checked(options, plan, output)
     bar = progress(options, total=plan.count, unit=" cases", unit_scale=True)
-    with bar, place(str(options.plan)):
+    with bar, place(str(options.plan)), drafted(options, lambda: _figure(options, plan, points)):
         write(plan, output, done=bar.update)
     record = {"file": str(output), "cases": plan.count, "columns": plan.columns}
     text = f"Written: {one_line(str(output))} ({plan.count} cases)"
     return put(options, record | provenance(plan), lambda: text, quietly=True)
+
+
+def _checked(options: argparse.Namespace, plan: "Plan", output: Path) -> "Points | None":
+    """Return one's own points, if any, once it is sure that the figure can be drawn and written."""
+    if options.plot is None:
+        return checked(options, lambda _: None)
+    from replication.plots import check_sweep, sweep_points
+
+    with place(f"--plot: {options.plan}"):
+        check_sweep(plan.axes, plan.samples, plan.is_drawn)
+    return checked(options, sweep_points(plan.axes, plan.is_drawn), options.plan, output)
+
+
+def _figure(options: argparse.Namespace, plan: "Plan", points: "Points | None") -> "Figure":
+    from replication.plots import in_title, plot_sweep
+    from replication.sweep import compute
+
+    drawn = f", {plan.samples:,} drawn with seed {plan.seed}" if plan.is_drawn else ""
+    title = f"{options.plan.name}: {in_title(plan.constants)}{drawn}"
+    return plot_sweep(compute(plan, 0, plan.count), plan.axes, plan.is_drawn, title, points)

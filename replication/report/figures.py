@@ -12,10 +12,11 @@ from math import log10
 from reference.scheme import Scheme
 from replication.audit.record import Record
 from replication.report.words import shown_range
+from spreadsheets.styles import CURVES
 
-INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
-"""The color of the surrounding text, and two of Okabe and Ito's palette, which stand out from
-white, from near-black and, for the color-blind too, from each other."""
+INK, SHADE = "currentColor", "#8c959f"
+"""The color of the surrounding text, and a gray for what is not a case of the report. The cases
+have the colors and marks of their curves in the workbook."""
 
 WIDTH = 440
 
@@ -113,11 +114,13 @@ class _Plot:
         for point in points:
             self.mark(kind, color, *self.at(*point))
 
-    def bar(self, low: float, high: float, y: float, color: str, height: float) -> None:
+    def bar(
+        self, low: float, high: float, y: float, fill: str, height: float, edge: str = "none"
+    ) -> None:
         (left, down), (right, _) = self.at(min(low, high), y), self.at(max(low, high), y)
         self.parts.append(
             f'<rect x="{_n(left)}" y="{_n(down - height / 2)}" width="{_n(right - left)}" '
-            f'height="{_n(height)}" fill="{color}"/>'
+            f'height="{_n(height)}" fill="{fill}" stroke="{edge}"/>'
         )
 
     def legend(self, x: float, y: float, entries: Mapping[str, tuple[str, str]]) -> None:
@@ -163,6 +166,12 @@ def _n(value: float) -> str:
     return f"{value:.1f}".removesuffix(".0")
 
 
+def _look(beta: float) -> tuple[str, str]:
+    """Return the mark and the color of a case: those of the report's case with the nearest beta."""
+    look = CURVES[min(CURVES, key=lambda known: abs(float(known) - beta))]
+    return look.marker, look.color
+
+
 def _observed(record: Record) -> list[float]:
     """Return the values of X/R that follow from observations."""
     return [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
@@ -175,20 +184,20 @@ def _comparison(record: Record) -> _Plot:
     title = "Normalized depth by every approach of the report"
     height = 30 * len(shown)
     plot = _Plot(title, (190, 8, 240, height), (0, 1.1), (len(shown) - 0.5, -0.5), below=115)
-    plot.bar(min(observed), max(observed), (len(shown) - 1) / 2, "#8c959f", plot.height)
+    plot.bar(min(observed), max(observed), (len(shown) - 1) / 2, SHADE, plot.height)
     plot.axes([k / 5 for k in range(6)], [], "Normalized depth X/R")
     plot.rows([f"{a.kind}: {a.name}".replace(", ", ",; ").replace("beta", "β") for a in shown])
     for y, a in enumerate(shown):
         if a.shown:
-            kind = ("hollow diamond", INK) if a.computed is None else ("hollow square", VERMILION)
+            kind = ("hollow diamond", INK) if a.computed is None else ("hollow square", INK)
             plot.marks(*kind, [(float(a.shown), y)])
         if a.computed is not None:
-            plot.marks("circle", BLUE, [(a.computed, y)])
+            plot.marks("circle", INK, [(a.computed, y)])
     plot.legend(100, height + 60, {
-        "computed in this audit": ("circle", BLUE),
-        "printed by the report": ("hollow square", VERMILION),
+        "computed in this audit": ("circle", INK),
+        "printed by the report": ("hollow square", INK),
         "quoted by the report, not recomputable": ("hollow diamond", INK),
-        f"observed, {min(observed):.3f} to {max(observed):.3f}": ("line", "#8c959f"),
+        f"observed, {min(observed):.3f} to {max(observed):.3f}": ("line", SHADE),
     })  # fmt: skip
     values = []
     for a in record.approaches:
@@ -210,16 +219,16 @@ def _sensitivity(record: Record) -> _Plot:
     plot.axes(range(6, 11), [], "Depth X [µm]")
     named = [(e.input.replace("_", " ").replace("beta", "β"), e) for e in effects]
     plot.rows([f"{name}; {shown_range(e)}" for name, e in named])
-    depth, words = case.depth * 1e6, []
+    (_, color), depth, words = _look(case.beta), case.depth * 1e6, []
     for y, (name, effect) in enumerate(named):
         ends = [x * 1e6 for x in effect.depths]
-        for end, color in zip(ends, (VERMILION, BLUE), strict=True):
-            plot.bar(depth, end, y, color, 18)
+        for end, fill in zip(ends, ("none", color), strict=True):
+            plot.bar(depth, end, y, fill, 18, color)
         changes = [f"{end - depth:+.3f}" for end in ends]
         plot.row_text(434, y, [c.replace("-", "−") for c in changes if float(c)])
         words.append(f"{name} {' to '.join(f'{end:.2f}' for end in ends)} µm")
     plot.line([(depth, y) for y in rows])
-    looks = {"input at its low end": ("square", VERMILION), "at its high end": ("square", BLUE)}
+    looks = {"input at its low end": ("hollow square", color), "at its high end": ("square", color)}
     plot.legend(150, height + 80, looks)
     plot.text(434, 16, "change [µm]", "end")
     plot.words = f"{'; '.join(words)}."
@@ -231,8 +240,9 @@ def _figure_3(record: Record) -> _Plot:
     title = "Penetration depth against time, as in Figure 3 of the report"
     plot = _Plot(title, (44, 8, 386, 260), (0, 46), (0, 11.5))
     plot.axes(range(0, 41, 10), range(0, 11, 2), "Time [ns]", "Penetration depth [µm]")
-    legend, words, looks = {"exact": ("line", INK)}, [], (("circle", VERMILION), ("square", BLUE))
-    for curve, look in zip(record.curves, looks, strict=False):
+    legend, words = {"exact": ("line", INK)}, []
+    for curve in record.curves:
+        look = _look(curve.beta)
         exact, sheet = (
             [(time * 1e9, depth * 1e6) for time, depth in zip(*columns, strict=True)]
             for columns in ((curve.exact_time, curve.exact_depth),
@@ -267,10 +277,10 @@ def _figure_5(record: Record) -> _Plot:
     observed = next(float(a.shown) for a in record.approaches if a.kind == "observed" and a.shown)
     plot.line(zip(curve.velocity, curve.exact, strict=True))
     plot.line([(x, observed) for x in plot.x], INK, "5 3")
-    plot.marks("square", BLUE, list(zip(curve.velocity, curve.sheet, strict=True))[::2])
+    plot.marks(*_look(5), list(zip(curve.velocity, curve.sheet, strict=True))[::2])
     plot.legend(290, 180, {
         "exact": ("line", INK),
-        "the sheet, β = 5": ("square", BLUE),
+        "the sheet, β = 5": _look(5),
         f"observed, {observed}": ("dashed line", INK),
     })  # fmt: skip
     plot.words = (
@@ -291,12 +301,12 @@ def _convergence(record: Record) -> _Plot:
     plot = _Plot(title, (44, 8, 386, 260), (0.04, 4), (0.01, 300), below=120, logarithmic=True)
     steps = sorted({round(level.step * 1e9, 9) for level in record.ladders})
     plot.axes(steps, [0.01, 0.1, 1, 10, 100], "Time step [ns]", "Error of the final depth [nm]")
-    looks = {"published": ("circle", VERMILION), "centered": ("square", BLUE)}
-    legend, words, greatest = {}, [], max(level.beta for level in record.ladders)
+    legend, words = {}, []
     for (scheme, beta), points in ladders.items():
-        kind, color = looks[scheme]
-        kind = kind if beta == greatest else f"hollow {kind}"
-        plot.line(points, color)
+        (kind, color), dashes = _look(beta), ""
+        if scheme == Scheme.CENTERED:
+            kind, dashes = f"hollow {kind}", "5 3"
+        plot.line(points, color, dashes)
         plot.marks(kind, color, points)
         name = f"drag at the {Scheme(scheme).drag_at} velocity, β = {beta:g}"
         legend[name] = (kind, color)

@@ -51,7 +51,8 @@ def convergence(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         first = sheet.row + 2
         _levels(sheet, case, first)
         last = first + LEVELS - 1
-        curves.append(Curve((sheet.name, label), f"B{first}:B{last}", f"F{first}:F{last}"))
+        x, y = f"B{first}:B{last}", f"F{first}:F{last}"
+        curves.append(Curve((sheet.name, label), x, y, case.beta))
         sheet.row = last + 1
         at_rest = recorded(f"convergence.{case.slug}.rest_um", shown="0.000000")
         sheet.put(A=Cell("At rest, without steps"), D=at_rest)

@@ -28,7 +28,7 @@ def figure_3(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         sheet.row = 5
         _curve(sheet, case, *columns)
         x, y = (f"{column}{_FIRST}:{column}{_FIRST + case.rows}" for column in columns)
-        curves.append(Curve((case.name, "I1"), x, y))
+        curves.append(Curve((case.name, "I1"), x, y, case.beta))
 
     def describe(values: Mapping[str, Value]) -> str:
         ends = ", ".join(

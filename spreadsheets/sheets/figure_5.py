@@ -47,7 +47,8 @@ def figure_5(ledger: Ledger, case: CaseSheet) -> SheetPlan:
             f" for {case.label}, from {low} to {high}."
         )
 
-    curve = Curve((case.name, "I1"), f"Q{_FIRST}:Q{_LAST}", f"V{_FIRST}:V{_LAST}")
+    x, y = f"Q{_FIRST}:Q{_LAST}", f"V{_FIRST}:V{_LAST}"
+    curve = Curve((case.name, "I1"), x, y, case.beta)
     sheet.chart = Chart(
         at="A7",
         title="Normalized penetration depth against impact velocity",

@@ -435,7 +435,8 @@ def test_verdicts_and_checks_stand_on_the_first_screen(
 
 
 def test_curves_differ_in_more_than_color() -> None:
-    assert len({look.dash for look in CURVES}) == len({look.marker for look in CURVES}) == 2
+    looks = CURVES.values()
+    assert len({look.dash for look in looks}) == len({look.marker for look in looks}) == 2
 
 
 @pytest.mark.parametrize("name", ["Figure 3", "Figure 5", "Convergence"])

@@ -1,0 +1,768 @@
+"""Figures of a case, a sweep or a fit, with one's own points over them, as SVG, PNG or PDF.
+
+The colors and marks of the report's two cases are those of the workbook and of the page
+(`spreadsheets.styles.CURVES`). Curves differ in dashes and marks, too, so that a figure can be read
+in gray. The same numbers give the same file.
+"""
+
+import io
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from replication.cases import INPUTS
+from replication.columns import column_of, read_columns
+from replication.fit import HEADS, Fit, Measurement
+from replication.models.depth import final_depth
+from replication.models.impact import Impact
+from replication.models.motion import history, stop_time
+from replication.models.sheet import Sheet
+from replication.text import number
+from spreadsheets.safely import check_target
+from spreadsheets.styles import CURVES
+
+if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
+    import numpy as np
+    import numpy.typing as npt
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+ENDINGS = (".svg", ".png", ".pdf")
+"""The endings of files that a figure can be written to."""
+
+STYLE: Mapping[str, Any] = {
+    "font.family": "DejaVu Sans",  # comes with Matplotlib, so that every machine has it
+    "font.size": 9,
+    "axes.titlesize": 9,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "axes.axisbelow": True,
+    "grid.color": "#E5E5E5",
+    "grid.linewidth": 0.6,
+    "legend.edgecolor": "none",
+    "legend.framealpha": 0.85,
+    "lines.linewidth": 1.2,
+    "lines.markersize": 4,
+    "svg.hashsalt": "coldspray",  # otherwise ids in the file would differ from run to run
+    "svg.fonttype": "none",
+}
+"""The style of all figures that Matplotlib draws, in its own settings."""
+
+INK, SHADE = "#1f2328", "#8c959f"
+"""The colors of text, of one's own points and of the exact motion; and of what stands behind."""
+
+
+class Look(NamedTuple):
+    """How a curve is drawn, in Matplotlib's words."""
+
+    color: str
+    line: str
+    marker: str
+
+    @property
+    def of_line(self) -> dict[str, Any]:
+        """The settings of a line without marks."""
+        return {"color": self.color, "linestyle": self.line}
+
+    @property
+    def of_marks(self) -> dict[str, Any]:
+        """The settings of marks without a line."""
+        return {"color": self.color, "linestyle": "", "marker": self.marker}
+
+
+_LINES, _MARKERS = {"solid": "-", "dash": "--"}, {"circle": "o", "square": "s"}
+BY_BETA = {
+    beta: Look(look.color, _LINES[look.dash], _MARKERS[look.marker])
+    for beta, look in CURVES.items()
+}
+"""The looks of the report's two cases, by their beta."""
+
+OTHER_LOOKS = (
+    Look("#009e73", "-.", "^"),
+    Look("#cc79a7", ":", "D"),
+    Look("#e69f00", (0, (6, 1, 1, 1, 1, 1)), "v"),  # type: ignore[arg-type]
+    Look("#56b4e9", (0, (1, 3)), "P"),  # type: ignore[arg-type]
+    Look(INK, "-", "X"),
+    Look(SHADE, "--", "*"),
+)
+"""The looks of all other curves: more of Okabe and Ito's colors."""
+
+MOST_CURVES = len(OTHER_LOOKS)
+"""The most curves that a figure shows, one for each value of an input."""
+
+
+def look_of(impact: Impact) -> Look:
+    """Return how a case is drawn: by its beta as the report's, or else in a look of its own.
+
+    >>> from replication.cases import BETA_3
+    >>> look_of(BETA_3).color == CURVES["3"].color
+    True
+    """
+    return _look("" if impact.beta is None else f"{impact.beta:g}", 0)
+
+
+def _look(beta: str, position: int) -> Look:
+    return BY_BETA.get(beta, OTHER_LOOKS[position % MOST_CURVES])
+
+
+# Quantities and their units
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A quantity of an axis: its label, its SI unit, and the names of its column in one's own file.
+
+    Its axis is in `unit`, which is `scale` times smaller than the SI unit.
+    """
+
+    label: str
+    names: tuple[str, ...]
+    si: str
+    unit: str
+    scale: float = 1.0
+
+    @property
+    def title(self) -> str:
+        """The title of its axis, such as "Time [ns]"."""
+        return f"{self.label} [{self.unit}]"
+
+    def shown(self, values: Any) -> Any:
+        """Return values in the unit of the axis, as an array."""
+        import numpy as np
+
+        return np.asarray(values, float) * self.scale
+
+
+_SHOWN = {"m": ("µm", 1e6), "s": ("ns", 1e9), "Pa": ("MPa", 1e-6), "kg/m^3": ("kg/m³", 1.0)}
+
+
+def _quantity(name: str, si: str, label: str = "", names: Sequence[str] = ()) -> Quantity:
+    words = name.replace("_", " ")
+    unit, scale = _SHOWN.get(si, (si, 1.0))
+    return Quantity(label or words.capitalize(), tuple(names) or (words,), si, unit, scale)
+
+
+TIME = _quantity("time", "s", names=("time", "t"))
+SPEED = _quantity("velocity", "m/s", names=HEADS["velocity"])
+DEPTH = _quantity("depth", "m", "Penetration depth", HEADS["depth"])
+RATIO = _quantity("normalized_depth", "1", "Normalized depth X/R", ("normalized depth", "x/r"))
+STEP = _quantity("step", "s", "Time step", ("step", "time step", "dt"))
+ERROR = Quantity(
+    "Size of the error of the final depth", ("error", "error of depth"), "m", "nm", 1e9
+)
+UNCERTAINTY = _quantity("uncertainty", "m", names=HEADS["uncertainty"])
+STOP_TIME = _quantity("stop_time", "s", "Time to rest", ("stop time",))
+INPUT = {
+    name: _quantity(name, si, {"velocity": "Impact velocity"}.get(name, ""), HEADS.get(name, ()))
+    for name, si in INPUTS.items()
+}
+"""The inputs of a case, by their names."""
+
+
+def in_title(inputs: Mapping[str, float]) -> str:
+    """Return inputs of a case [SI], by name, as words of a title; those of the sheet are left out.
+
+    >>> in_title({"radius": 11e-6, "beta": 5.0, "step": 2e-10})
+    'radius 11 µm, beta 5'
+    """
+    names = [name for name in inputs if name not in ("step", "stop_velocity")]
+    return ", ".join(_in_words(name, inputs[name]) for name in names)
+
+
+def _in_words(name: str, value: float) -> str:
+    quantity = INPUT[name]
+    unit = "" if quantity.unit == "1" else f" {quantity.unit}"
+    return f"{quantity.label.lower()} {number(value * quantity.scale)}{unit}"
+
+
+# One's own points
+
+
+@dataclass(frozen=True, slots=True)
+class Points:
+    """One's own points: the name of their file, and columns [SI] by quantity, of equal length."""
+
+    file: str
+    columns: Mapping[Quantity, Sequence[float]]
+
+    def draw(self, panel: "Axes", x: Quantity, y: Quantity) -> None:
+        """Draw them on a panel of y against x, with bars for the uncertainty of a depth.
+
+        Nothing is drawn if there is no column of one of the two.
+        """
+        if x not in self.columns or y not in self.columns:
+            return
+        bars = None
+        if y is DEPTH and UNCERTAINTY in self.columns:
+            bars = y.shown(self.columns[UNCERTAINTY])
+        across, up = (quantity.shown(self.columns[quantity]) for quantity in (x, y))
+        _own_points(panel, across, up, bars, self.file)
+
+
+def _own_points(panel: "Axes", x: Any, y: Any, bars: Any, label: str) -> None:
+    """Draw measured points: hollow, above all else, and with the id `data` in an SVG."""
+    hollow = {"linestyle": "", "marker": "o", "markersize": 6, "markerfacecolor": "none"}
+    settings: Any = {**hollow, "color": INK, "zorder": 5}
+    if bars is not None:
+        panel.errorbar(x, y, bars, color=INK, linestyle="", linewidth=0.8, capsize=2, zorder=4.9)
+    (marks,) = panel.plot(x, y, label=label, **settings)
+    marks.set_gid("data")
+
+
+def read_points(path: Path, x: Quantity | None, ys: Sequence[Quantity]) -> Points:
+    """Read one's own points from a file of columns (`replication.columns`), known by their heads.
+
+    There must be a column of x, if it is not None, and of one of `ys` at least. Raises OSError, or
+    ValueError that names the file and what it lacks.
+    """
+    columns = read_columns(path)
+    numbers: dict[Quantity, Sequence[float]] = {}
+    for quantity in (*([x] if x else ()), *ys, UNCERTAINTY):
+        column = column_of(columns, quantity.names)
+        if column is not None:
+            numbers[quantity] = column.numbers(quantity.si)
+    lacks = "" if x is None or x in numbers else f"'{_head(x)}'"
+    if not any(y in numbers for y in ys):
+        wanted = " or ".join(f"'{_head(y)}'" for y in ys)
+        lacks = f"{lacks}, and no column {wanted}" if lacks else wanted
+    if lacks:
+        has = ", ".join(repr(column.head) for column in columns[:6])
+        raise ValueError(f"{path} has no column {lacks} (it has {has})")
+    return Points(path.name, numbers)
+
+
+def _head(quantity: Quantity) -> str:
+    return f"{quantity.names[0]} [{quantity.unit.replace('µ', 'u').replace('³', '^3')}]"
+
+
+# Files
+
+
+def check_plot(path: Path, *inputs: Path | None) -> None:
+    """Raise ValueError if a figure cannot be written to `path`, or OSError as `check_target` does.
+
+    >>> check_plot(Path("history.gif"))
+    Traceback (most recent call last):
+    ValueError: history.gif: a figure's name ends in .svg, .png or .pdf
+    """
+    if path.suffix.lower() not in ENDINGS:
+        raise ValueError(f"{path}: a figure's name ends in {', '.join(ENDINGS[:-1])} or .pdf")
+    target = check_target(path)
+    if any(other is not None and other.resolve() == target for other in inputs):
+        raise ValueError(f"{path} is also read: write the figure to another file")
+
+
+def styled() -> "AbstractContextManager[None]":
+    """Return the context in which figures are drawn and written, whatever the user's own style."""
+    import matplotlib as mpl
+
+    settings: Any = {**mpl.rcParamsDefault, **STYLE}
+    settings.pop("backend", None)  # of windows, which are not touched
+    return mpl.rc_context(settings)
+
+
+def content(figure: "Figure", ending: str = ".svg") -> bytes:
+    """Return the bytes of a figure's file, on a white background; `ending` is one of `ENDINGS`."""
+    # Without dates, the same numbers give the same file.
+    dates = {".svg": {"Date": None}, ".pdf": {"CreationDate": None}, ".png": {}}
+    file = io.BytesIO()
+    with styled():
+        form, undated = ending.lower(), dates[ending.lower()]
+        figure.savefig(file, format=form[1:], dpi=160, facecolor="white", metadata=undated)
+    return file.getvalue()
+
+
+_TYPESET = {" um": " µm", "kg/m^3": "kg/m³", "rho_": "ρ_", " x ": " × "}
+"""How titles are written, which come from the terminal's own lines."""
+
+
+def _panels(title: str, count: int, sharex: bool = True) -> "tuple[Figure, list[Axes]]":
+    """Return a figure with panels, one below another, under a title."""
+    from matplotlib.figure import Figure
+
+    figure = Figure(figsize=(6.4, 1.4 + 2.6 * count), layout="constrained")
+    for plain, typeset in _TYPESET.items():
+        title = title.replace(plain, typeset)
+    figure.suptitle(title, fontsize=9, wrap=True)
+    grid = figure.subplots(count, 1, sharex=sharex, squeeze=False)
+    return figure, [row[0] for row in grid]
+
+
+def _legend(panel: "Axes") -> None:
+    handles, labels = panel.get_legend_handles_labels()
+    if labels:
+        panel.legend(handles, labels)
+
+
+# The figures
+
+CURVE_POINTS = 201
+"""Number of points of a smooth curve, ends included."""
+
+MARKS = 30
+"""About how many rows of a sheet are marked; with all of them the marks would be a band."""
+
+
+def plot_history(
+    impact: Impact,
+    time: Sequence[float],
+    depth: Sequence[float],
+    velocity: Sequence[float],
+    title: str = "",
+    points: Points | None = None,
+) -> "Figure":
+    """Draw depth and velocity against time; these times (SI) are marked if they are few.
+
+    If the particle sinks in that far, a line marks x = R, where the contact area stops growing.
+    """
+    look, curves = look_of(impact), _exact(impact, max(time))
+    with styled():
+        figure, panels = _panels(title, 2)
+        asked = ((DEPTH, depth), (SPEED, velocity))
+        for panel, (quantity, values) in zip(panels, asked, strict=True):
+            panel.plot(
+                TIME.shown(curves[TIME]),
+                quantity.shown(curves[quantity]),
+                **look.of_line,
+                label="exact",
+            )
+            if len(time) <= MARKS:
+                x, y = TIME.shown(time), quantity.shown(values)
+                panel.plot(x, y, label="at the times asked for", **look.of_marks)
+            panel.set_ylabel(quantity.title)
+            if points:
+                points.draw(panel, TIME, quantity)
+            _legend(panel)
+        _line_at_radius(panels[0], impact, max(curves[DEPTH]))
+        panels[-1].set_xlabel(TIME.title)
+        return figure
+
+
+def _exact(impact: Impact, end: float) -> dict[Quantity, list[float]]:
+    """Return times from 0 to an end [s], with the exact depths and velocities: a smooth curve."""
+    time = [end * k / (CURVE_POINTS - 1) for k in range(CURVE_POINTS)]
+    depth, speed = [0.0] * CURVE_POINTS, [0.0] * CURVE_POINTS
+    history(time, **impact.motion, depth=depth, speed=speed)
+    return {TIME: time, DEPTH: depth, SPEED: speed}
+
+
+def _line_at_radius(panel: "Axes", impact: Impact, deepest: float) -> None:
+    """Draw the depth R, where the contact area stops growing, if the particle comes near it."""
+    if deepest > 0.8 * impact.radius:
+        R = impact.radius * DEPTH.scale
+        panel.axhline(R, color=SHADE, linestyle=":", linewidth=1)
+        panel.annotate("x = R", (0.01, R), xycoords=("axes fraction", "data"), va="bottom")
+
+
+def plot_sheet(sheet: Sheet, title: str = "", points: Points | None = None) -> "Figure":
+    """Draw the sheet's rows over the exact motion: depth and final velocity against time.
+
+    A row's depth stands half a step behind its time and its velocity. Row 0, the touch, is drawn,
+    too.
+    """
+    impact, look = sheet.impact, look_of(sheet.impact)
+    every = _every(sheet.steps)
+    rows = (
+        sheet.rows[::every] if sheet.steps % every == 0 else [*sheet.rows[::every], sheet.rows[-1]]
+    )
+    curves = _exact(impact, max(sheet.rows[-1].time, stop_time(**impact.motion)))
+    last = [
+        row.velocity_initial if row.velocity_final is None else row.velocity_final for row in rows
+    ]
+    drawn = ((DEPTH, [row.depth for row in rows]), (SPEED, last))
+    label = "the sheet, all rows" if every == 1 else f"the sheet, one row of {every}"
+    with styled():
+        figure, panels = _panels(title, 2)
+        for panel, (quantity, marks) in zip(panels, drawn, strict=True):
+            exact = quantity.shown(curves[quantity])
+            panel.plot(TIME.shown(curves[TIME]), exact, color=INK, label="exact")
+            x = TIME.shown([row.time for row in rows])
+            panel.plot(x, quantity.shown(marks), label=label, **look.of_marks)
+            panel.set_ylabel(quantity.title)
+            if points:
+                points.draw(panel, TIME, quantity)
+            _legend(panel)
+        _line_at_radius(panels[0], impact, max(curves[DEPTH]))
+        panels[-1].set_xlabel(TIME.title)
+        return figure
+
+
+_PARTS = {
+    "time_step": ("time step", Look("#009e73", "-.", "^")),
+    "stop_rule": ("stop rule", Look("#cc79a7", ":", "D")),
+    "half_step": ("half step", Look("#e69f00", "--", "v")),
+    "rounding": ("rounding", Look(SHADE, ":", "x")),
+}
+"""The parts of an error (`replication.error.ladder`), in words, and how they are drawn."""
+
+
+def plot_converge(
+    impact: Impact, record: Mapping[str, Any], title: str = "", points: Points | None = None
+) -> "Figure":
+    """Draw the size of the sheet's error and of its parts against the time step, both logarithmic.
+
+    `record` is that of `replication.error.ladder.converge`. An error of zero cannot be drawn on a
+    logarithmic axis, and is left out. A gray line falls with the order of the scheme. One's own
+    points are errors, or final depths, from which the exact depth at rest is subtracted.
+    """
+    levels, look = record["levels"], look_of(impact)
+    steps = STEP.shown([level["step"] for level in levels])
+    with styled():
+        figure, (panel,) = _panels(title, 1)
+        figure.set_size_inches(6.4, 4.8)
+        panel.set(xscale="log", yscale="log", xlabel=STEP.title, ylabel=ERROR.title)
+        errors = _sizes([level["error"] for level in levels])
+        panel.plot(
+            steps, errors, label="error", marker=look.marker, **look.of_line | {"linewidth": 2}
+        )
+        for part, (words, own) in _PARTS.items():
+            sizes = _sizes([level["budget"][part] for level in levels])
+            panel.plot(steps, sizes, label=words, marker=own.marker, **own.of_line)
+        _guide(panel, steps, errors, record["nominal_order"])
+        if points:
+            own_steps = points.columns[STEP]
+            own_errors = points.columns.get(ERROR)
+            if own_errors is None:
+                own_errors = [depth - record["exact"] for depth in points.columns[DEPTH]]
+            _own_points(panel, STEP.shown(own_steps), _sizes(own_errors), None, points.file)
+        panel.set_xticks(steps, [number(step, 3) for step in steps], minor=False)
+        panel.xaxis.minorticks_off()
+        panel.tick_params(axis="x", labelrotation=45 if len(steps) > 8 else 0)
+        panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
+        return figure
+
+
+def _sizes(lengths: Sequence[float | None]) -> Any:
+    """Return the sizes of errors [nm]; those of zero, or of nothing, are NaN and are not drawn."""
+    return ERROR.shown([abs(length) if length else math.nan for length in lengths])
+
+
+def _guide(panel: "Axes", steps: Any, errors: Any, order: int) -> None:
+    """Draw how an error of the scheme's order falls, from the greatest error on."""
+    if not errors[0] > 0:
+        return
+    power = {1: "h", 2: "h²"}[order]
+    line = errors[0] * (steps / steps[0]) ** order
+    panel.plot(
+        steps, line, color=SHADE, linewidth=0.8, zorder=1, label=f"order {order}: as {power}"
+    )
+
+
+def plot_fit(
+    measurements: Sequence[Measurement],
+    fit: Fit,
+    title: str = "",
+    file: str = "measured",
+) -> "Figure":
+    """Draw measured depths with the fitted curve over velocity, and the residuals below.
+
+    The curve is for the inputs of the measurements if these differ in nothing but the velocity;
+    otherwise the fitted depth of each measurement is marked. `fit` is of `replication.fit.fit`.
+    """
+    speeds = [m.velocity for m in measurements]
+    depths = [m.depth for m in measurements]
+    bars = None
+    if all(m.uncertainty is not None for m in measurements):
+        bars = DEPTH.shown([m.uncertainty for m in measurements])
+    x, look, words = INPUT["velocity"], OTHER_LOOKS[0], _fitted(fit)
+    with styled():
+        figure, (above, below) = _panels(title, 2)
+        if len({m.impact[1:] for m in measurements}) == 1:
+            low, high = min(speeds), max(speeds)
+            margin = (high - low) / 20 or low / 20
+            low, high = max(low - margin, low / 2), high + margin
+            curve = [low + (high - low) * k / (CURVE_POINTS - 1) for k in range(CURVE_POINTS)]
+            fitted = [final_depth(v, *measurements[0].impact[1:], fit.resistance) for v in curve]
+            above.plot(x.shown(curve), DEPTH.shown(fitted), label=words, **look.of_line)
+        else:
+            fitted = [final_depth(*m.impact, fit.resistance) for m in measurements]
+            above.plot(x.shown(speeds), DEPTH.shown(fitted), label=words, **look.of_marks)
+        _own_points(above, x.shown(speeds), DEPTH.shown(depths), bars, file)
+        below.axhline(0, **look.of_line)
+        _own_points(below, x.shown(speeds), DEPTH.shown(fit.residuals), bars, file)
+        above.set_ylabel(DEPTH.title)
+        below.set_ylabel(f"Measured less fitted [{DEPTH.unit}]")
+        below.set_xlabel(x.title)
+        _legend(above)
+        return figure
+
+
+def _fitted(fit: Fit) -> str:
+    """Return the fitted quantity with its standard error, such as "resistance 3.5 ± 0.1 GPa"."""
+    unit, scale = {"beta": ("", 1.0), "flow_stress": (" MPa", 1e-6)}.get(
+        fit.quantity, (" GPa", 1e-9)
+    )
+    error = "" if fit.standard_error is None else f" ± {number(fit.standard_error * scale, 2)}"
+    return f"fitted {fit.quantity.replace('_', ' ')} {number(fit.value * scale, 4)}{error}{unit}"
+
+
+# Sweeps
+
+MOST_DRAWN = 1_000_000
+"""The most cases of a sweep that are drawn: their results are held in memory."""
+
+QUANTILES = {0.05: ":", 0.5: "-", 0.95: ":"}
+"""The quantiles that a histogram shows, with the dashes of their lines."""
+
+_QUANTILES_TITLE = "quantiles of 5, 50 and 95 %"
+
+Results = Mapping[str, Any]
+"""Columns of a sweep (SI), inputs and results, each of the shape (cases,)."""
+
+
+def check_sweep(axes: Mapping[str, int], samples: int, drawn: bool) -> None:
+    """Raise ValueError if the cases of a sweep make no figure.
+
+    `axes` are the inputs with several listed values, and their numbers; `drawn` says whether inputs
+    are drawn, in each of the combinations `samples` times.
+
+    >>> check_sweep({"beta": 2, "radius": 41, "velocity": 5}, 1, False)
+    Traceback (most recent call last):
+    ValueError: it varies beta, radius and velocity: a figure shows one or two inputs
+    """
+    names, combinations = list(axes), math.prod(axes.values())
+    if drawn:
+        if combinations > MOST_CURVES:
+            raise ValueError(
+                f"it draws for {combinations} combinations of {' and '.join(names)}: a figure "
+                f"shows at most {MOST_CURVES} histograms"
+            )
+    elif not axes:
+        raise ValueError("it varies no input: there is nothing to draw against")
+    elif len(axes) > 2:
+        listed = f"{', '.join(names[:-1])} and {names[-1]}"
+        raise ValueError(f"it varies {listed}: a figure shows one or two inputs")
+    if combinations * samples > MOST_DRAWN:
+        raise ValueError(
+            f"it has {combinations * samples:,} cases: a figure shows {MOST_DRAWN:,} at most"
+        )
+
+
+def sweep_points(axes: Mapping[str, int], drawn: bool) -> Callable[[Path], Points]:
+    """Return a reader of one's own points for the figure of a sweep."""
+    x = None if drawn else INPUT[_across(axes)]
+    ys = (INPUT[_up(axes)],) if not drawn and _is_map(axes) else (DEPTH, RATIO)
+    return lambda path: read_points(path, x, ys)
+
+
+def _across(axes: Mapping[str, int]) -> str:
+    """Return the input along the axis x: the one with the most values, the last of equals."""
+    return max(reversed([*axes]), key=axes.__getitem__)
+
+
+def _is_map(axes: Mapping[str, int]) -> bool:
+    """Return whether both inputs have too many values for a curve each."""
+    return len(axes) == 2 and min(axes.values()) > MOST_CURVES
+
+
+def _up(axes: Mapping[str, int]) -> str:
+    """Return the input along the axis y of a map."""
+    return next(name for name in axes if name != _across(axes))
+
+
+def plot_sweep(
+    results: Results,
+    axes: Mapping[str, int],
+    drawn: bool,
+    title: str = "",
+    points: Points | None = None,
+) -> "Figure":
+    """Draw the depth and X/R of a sweep, which `check_sweep` must allow.
+
+    One input is the axis x. A second one with few values gives a curve for each, and with more of
+    them the axis y of a map with labelled contours. Of drawn inputs, histograms are shown with the
+    quantiles of 5, 50 and 95 percent.
+    """
+    with styled():
+        if drawn:
+            return _histograms(results, axes, title, points)
+        if _is_map(axes):
+            return _contours(results, axes, title, points)
+        return _curves(results, axes, title, points)
+
+
+def _series(
+    shown: Mapping[str, int], axes: Mapping[str, int], results: Results
+) -> list[tuple[str, Look, tuple[int, ...]]]:
+    """Return the label, the look and the position of each combination of the values shown.
+
+    `shown` are those of `axes` of which each combination has a curve of its own.
+    """
+    series, listed = [], {name: _listed(name, axes, results) for name in shown}
+    alone = "" if shown else _only(results, "beta")  # several curves must differ
+    for count, at in enumerate(product(*map(range, shown.values()))):
+        values = {name: listed[name][k] for name, k in zip(shown, at, strict=True)}
+        beta = f"{values['beta']:g}" if "beta" in values else alone
+        series.append((in_title(values), _look(beta, count), at))
+    return series
+
+
+def _only(results: Results, name: str) -> str:
+    """Return an input's value in words if it is the same in all cases, and otherwise nothing."""
+    values = results.get(name, [])
+    return f"{values[0]:g}" if len(values) and min(values) == max(values) else ""
+
+
+def _listed(name: str, axes: Mapping[str, int], results: Results) -> "npt.NDArray[np.float64]":
+    """Return the listed values of an input [SI], one for each of its positions."""
+    position = [*axes].index(name)
+    along = tuple(slice(None) if k == position else 0 for k in range(len(axes) + 1))
+    listed: npt.NDArray[np.float64] = _table(results[name], axes)[along]
+    return listed
+
+
+def _table(column: Any, axes: Mapping[str, int]) -> "npt.NDArray[np.float64]":
+    """Return a column in the shape of the listed inputs, with the samples last."""
+    import numpy as np
+
+    return np.asarray(column, float).reshape(*axes.values(), -1)
+
+
+_RESULTS = {"depth": DEPTH, "normalized_depth": RATIO}
+"""What is drawn of a sweep, by the names of its columns."""
+
+
+def _curves(
+    results: Results, axes: Mapping[str, int], title: str, points: Points | None
+) -> "Figure":
+    """Draw a panel for the depth and one for X/R, with a curve for each value of a second input."""
+    across = _across(axes)
+    x, others = INPUT[across], {name: count for name, count in axes.items() if name != across}
+    inputs, position = x.shown(_listed(across, axes, results)), [*axes].index(across)
+    sheet: dict[str, Any] = {}
+    if "sheet_depth" in results:
+        depths = results["sheet_depth"]
+        sheet = {"depth": depths, "normalized_depth": depths / results["radius"]}
+    figure, panels = _panels(title, len(_RESULTS))
+    for panel, (column, y) in zip(panels, _RESULTS.items(), strict=True):
+        for label, look, at in _series(others, axes, results):
+            where: Any = (*at[:position], slice(None), *at[position:], 0)
+            exact = y.shown(_table(results[column], axes)[where])
+            mark = "" if sheet or len(inputs) > MARKS else look.marker
+            panel.plot(inputs, exact, label=label or "exact", marker=mark, **look.of_line)
+            if sheet:
+                marks, every = y.shown(_table(sheet[column], axes)[where]), _every(len(inputs))
+                words = f"{label}, the sheet" if label else "the sheet"
+                panel.plot(inputs[::every], marks[::every], label=words, **look.of_marks)
+        panel.set_ylabel(y.title)
+        if points:
+            points.draw(panel, x, y)
+        if _is_wide(inputs):
+            _make_logarithmic(panel, "x", *("y" if y is DEPTH else ""))
+        _legend(panel)
+    panels[-1].set_xlabel(x.title)
+    return figure
+
+
+def _every(count: int) -> int:
+    """Return of how many points one is marked."""
+    return max(1, round(count / MARKS))
+
+
+def _make_logarithmic(panel: "Axes", *axes: str) -> None:
+    """Make the axes "x" or "y" of a panel logarithmic, with plain numbers on them."""
+    for name in axes:
+        panel.set(**{f"{name}scale": "log"})
+        axis = panel.xaxis if name == "x" else panel.yaxis
+        axis.set_major_formatter("{x:g}")
+
+
+def _is_wide(values: Any) -> bool:
+    """Return whether values in equal ratios span more than a factor of ten: their axis is log."""
+    import numpy as np
+
+    if values.min() <= 0 or values.max() <= 10 * values.min() or len(values) < 3:
+        return False
+    # Equal ratios, up to the rounding of the values and of their logarithms.
+    return bool(np.ptp(np.diff(np.log(values))) < 1e-9)
+
+
+def _contours(
+    results: Results, axes: Mapping[str, int], title: str, points: Points | None
+) -> "Figure":
+    """Draw a map of the depth and one of X/R over two inputs, with labelled contours."""
+    from matplotlib.colors import BoundaryNorm
+
+    across, up = _across(axes), _up(axes)
+    x, y = INPUT[across], INPUT[up]
+    inputs = x.shown(_listed(across, axes, results)), y.shown(_listed(up, axes, results))
+    figure, panels = _panels(title, len(_RESULTS))
+    for panel, (column, quantity) in zip(panels, _RESULTS.items(), strict=True):
+        values = quantity.shown(_table(results[column], axes)[..., 0])
+        values = values if [*axes] == [up, across] else values.T
+        if levels := _levels(values):
+            shades: Any = {"cmap": "Greys", "alpha": 0.5, "extend": "both"}
+            norm = BoundaryNorm(levels, 256, extend="both")
+            panel.contourf(*inputs, values, levels, norm=norm, **shades)
+            lines = panel.contour(*inputs, values, levels, colors=INK, linewidths=0.8)
+            panel.clabel(lines, fontsize=8, fmt="%g")
+        else:
+            panel.set(xlim=(inputs[0].min(), inputs[0].max()))
+            panel.set(ylim=(inputs[1].min(), inputs[1].max()))
+            words = f"about {number(float(values.flat[0]))} everywhere"
+            panel.annotate(words, (0.5, 0.5), xycoords="axes fraction", ha="center")
+        panel.set(ylabel=y.title, title=quantity.title)
+        wide = [name for name, own in zip("xy", inputs, strict=True) if _is_wide(own)]
+        _make_logarithmic(panel, *wide)
+        if points:
+            points.draw(panel, x, y)
+    panels[-1].set_xlabel(x.title)
+    return figure
+
+
+def _levels(values: Any) -> list[float]:
+    """Return some ten round levels in the range of values: equal steps, or 1, 2, 5, 10, ...
+
+    There is none if the values differ in their last digits only.
+    """
+    from matplotlib.ticker import LogLocator, MaxNLocator
+
+    low, high = float(values.min()), float(values.max())
+    if high - low <= 1e-12 * abs(high):
+        return []
+    wide = low > 0 and high > 20 * low
+    locator = LogLocator(subs=(1, 2, 5), numticks=20) if wide else MaxNLocator(10)
+    return [level for level in map(float, locator.tick_values(low, high)) if low < level < high]
+
+
+def _histograms(
+    results: Results, axes: Mapping[str, int], title: str, points: Points | None
+) -> "Figure":
+    """Draw histograms of the depth and of X/R, with quantiles; one's own depths stand on the axis.
+
+    The area of a histogram is 1, so that those of other numbers of cases can be compared.
+    """
+    import numpy as np
+
+    figure, panels = _panels(title, len(_RESULTS), sharex=False)
+    for panel, (column, quantity) in zip(panels, _RESULTS.items(), strict=True):
+        table = quantity.shown(_table(results[column], axes))
+        bins = min(60, max(10, round(math.sqrt(table.shape[-1]))))
+        edges = np.linspace(table.min(), table.max(), bins + 1)
+        if not edges[0] < edges[-1]:  # all results are the same number
+            edges = edges[0] + np.linspace(-0.5, 0.5, 2) * (abs(edges[0]) or 1.0)
+        for label, look, at in _series(axes, axes, results):
+            own = table[at]
+            quantiles = np.quantile(own, list(QUANTILES))
+            numbers = ", ".join(number(float(value), 3) for value in quantiles)
+            words = f"{label}: {numbers}" if label else numbers
+            heights, _ = np.histogram(own, edges, density=True)
+            panel.stairs(heights, edges, label=words, color=look.color, linestyle=look.line, lw=1.2)
+            for value, dashes in zip(quantiles, QUANTILES.values(), strict=True):
+                panel.axvline(value, color=look.color, linestyle=dashes, linewidth=0.8)
+        if points and quantity in points.columns:
+            values = quantity.shown(points.columns[quantity])
+            _own_points(panel, values, np.zeros(len(values)), None, points.file)
+        panel.set_xlabel(quantity.title)
+        unit = f"1/{quantity.unit}" if quantity.unit != "1" else "1"
+        panel.set_ylabel(f"Probability density [{unit}]")
+        panel.margins(y=0.25)
+        panel.set_ylim(bottom=0)
+        panel.legend(loc="upper right", fontsize=8, title=_QUANTILES_TITLE, title_fontsize=8)
+    return figure
