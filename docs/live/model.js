@@ -79,7 +79,7 @@ export class Model {
       this.fields.map((field) => {
         const text = field.value.trim();
         const isNumber = text !== "" && Number.isFinite(Number(text));
-        return [field.name, isNumber ? `${text} ${field.dataset.unit}` : text];
+        return [field.name, isNumber ? `${text} ${field.dataset.unit}`.trim() : text];
       }),
     );
   }
@@ -119,12 +119,12 @@ export class Model {
         `${shown(sheet.normalized_depth)}.`;
     this.said.textContent =
       `Exact depth ${micro(depth)} µm, X/R ${shown(answer.normalized_depth)}, at rest after ` +
-      `${nano(answer.stop_time)} ns, for R_t = ${giga(answer.resistance)} GPa. ${bySheet}`;
+      `${nano(answer.stop_time)} ns, for Rₜ = ${giga(answer.resistance)} GPa. ${bySheet}`;
     this.said.dataset.depth = depth;
     this.said.dataset.sheet = sheet.depth ?? "";
     document.getElementById("inverse").textContent = inverse.refused
       ? `No resistance: ${inverse.refused}`
-      : `A depth of ${micro(inverse.depth)} µm takes R_t = ${giga(inverse.resistance)} GPa; ` +
+      : `A depth of ${micro(inverse.depth)} µm takes Rₜ = ${giga(inverse.resistance)} GPa; ` +
         `${inverse.interval.map(giga).join(" to ")} GPa for every depth that prints like it.`;
     this.showRows(sheet);
     this.showApproaches(answer.approaches);

@@ -1,6 +1,6 @@
 // Prove the stored audit again: all of it, or one claim, equation or finding from its own card.
 
-const SYMBOLS = { proven: "✓", same: "=", differs: "≠" };
+const SYMBOLS = { proven: "✓", same: "=", rounded: "≈", differs: "≠" };
 
 const number = (value) => String(Number(value.toPrecision(12)));
 
@@ -35,7 +35,7 @@ export class Proofs {
     this.running = true;
     this.all.setAttribute("aria-disabled", "true");
     this.hears.clear();
-    const counts = { proven: 0, same: 0, differs: 0 };
+    const counts = { proven: 0, same: 0, rounded: 0, differs: 0 };
     try {
       this.hears.say("Loading Python", 0);
       await this.python.start();
@@ -61,10 +61,11 @@ export class Proofs {
   }
 }
 
-function told({ proven, same, differs }) {
-  const all = `${proven} proven again here, ${same} the same again`;
-  if (differs === 0) return `${all}; nothing differs from the stored audit.`;
-  return `${all}; ${differs} not as stored: look for ${SYMBOLS.differs} below.`;
+function told({ proven, same, rounded, differs }) {
+  const parts = [`${proven} proven again here`, `${same} the same again`];
+  if (rounded > 0) parts.push(`${rounded} the same but for last digits (${SYMBOLS.rounded})`);
+  const end = differs > 0 ? `${differs} NOT as stored (${SYMBOLS.differs})` : "nothing else differs";
+  return `${parts.join(", ")}, ${end}.`;
 }
 
 // One claim, equation or finding, and its mark on the page.
@@ -92,44 +93,46 @@ class Entry {
     this.isCard = isCard;
   }
 
-  // Show what came out; returns "proven", "same" or "differs".
-  mark({ verdict, computed, enclosure, unit, differs }) {
-    const names = Object.keys(differs);
-    const outcome = names.length > 0 ? "differs" : enclosure ? "proven" : "same";
-    const value = computed === null ? "" : `: ${number(computed)}${unit === "1" ? "" : ` ${unit}`}`;
-    const range = enclosure ? `, proven to lie in [${enclosure.join(", ")}]` : "";
-    this.words = {
-      proven: `proven again here (${verdict}${value}${range})`,
-      same: `the same again (${verdict}${value})`,
-      differs: `not as stored in ${names.join(", ")}`,
-    }[outcome];
+  // Show what came out; returns a key of SYMBOLS.
+  mark(answer) {
+    const outcome = outcomeOf(answer);
+    this.words = wordsOf(outcome, answer);
     this.element.dataset.outcome = outcome;
     const short = document.createElement("span");
     short.textContent = SYMBOLS[outcome];
     short.setAttribute("aria-hidden", "true");
     const words = document.createElement("span");
     words.textContent = ` ${this.words}`;
-    if (!this.isCard && outcome !== "differs") words.className = "for-readers";
+    if (!this.isCard && answer.differs.length === 0) words.className = "for-readers";
     this.shown.title = this.words;
     this.shown.replaceChildren(short, words);
-    if (outcome === "differs") this.shown.append(differences(differs));
     return outcome;
   }
 }
 
-// Both values of each key that differs, and why that may be.
-function differences(differs) {
-  const list = document.createElement("ul");
-  for (const [key, [stored, here]] of Object.entries(differs)) {
-    const item = document.createElement("li");
-    item.textContent = `${key}: stored ${stored}, here ${here}`;
-    list.append(item);
-  }
-  const why = document.createElement("li");
-  why.textContent =
-    "Where only last digits differ, this browser's Python rounds a logarithm or a power otherwise " +
-    "than the machine that wrote the audit. Anything else means that the stored audit is not what " +
-    "this program says: it was changed, or made by another version.";
-  list.append(why);
-  return list;
+function outcomeOf({ enclosure, differs }) {
+  if (differs.some((difference) => !difference.last_digits)) return "differs";
+  if (differs.length > 0) return "rounded";
+  return enclosure ? "proven" : "same";
+}
+
+// What came out; where something differs, both values, and why that may be.
+function wordsOf(outcome, { verdict, computed, enclosure, unit, differs }) {
+  const value =
+    typeof computed === "number" ? `: ${number(computed)}${unit === "1" ? "" : ` ${unit}`}` : "";
+  const range = enclosure ? `, proven to lie in [${enclosure.join(", ")}]` : "";
+  if (outcome === "proven") return `proven again here (${verdict}${value}${range})`;
+  if (outcome === "same") return `the same again (${verdict}${value})`;
+  const both = differs.map(({ where, stored, here }) => `${where}: stored ${stored}, here ${here}`);
+  const [what, why] =
+    outcome === "rounded"
+      ? [
+          "the same but for last digits",
+          "Here a logarithm or a power is rounded otherwise than where the audit was written.",
+        ]
+      : [
+          "not as stored",
+          "The stored audit was changed, or it was made by another version of the program.",
+        ];
+  return `${what} (${verdict}). ${both.join("; ")}. ${why}`;
 }
