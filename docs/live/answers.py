@@ -141,7 +141,7 @@ def _sheet(impact: Impact, stop: float) -> Table:
     except InputError as error:
         return {"refused": str(error)}
     every = -(-len(sheet.rows) // MOST_POINTS)
-    shown = sheet.rows[:: every]
+    shown = sheet.rows[::every]
     points = [(row.time, row.depth) for row in (*shown, sheet.rows[-1])]
     first, last = sheet.rows[:6], sheet.rows[max(6, len(sheet.rows) - 2) :]
     return {

@@ -127,7 +127,7 @@ def _wheel_of_project(source: Path, made: Path) -> None:
 
 
 def _stored_audit(made: Path) -> None:
-    """Write `audit.html`, `audit.json` and the others, by the program that lies beside this file."""
+    """Write `audit.html` and `audit.json`, by the program that lies beside this file."""
     sys.path.insert(0, str(ROOT))
     try:
         from replication.audit.audit import audit
@@ -145,15 +145,12 @@ def _pages(parts: Parts, made: Path) -> None:
     body = stored.partition("<body>\n")[2].partition("</body>")[0]
     head, end_of_head, rest = body.partition("</header>\n")
     title = stored.partition("<title>")[2].partition("</title>")[0]
-    page = (HERE / "index.html").read_text("utf-8")
-    for place, content in {
+    contents = {
         "<!-- build.py puts the head of the stored audit here -->\n": head + end_of_head,
         "<!-- build.py puts the rest of the stored audit here -->\n": rest,
         "An audit that proves itself again": title,
-    }.items():
-        before, found, after = page.partition(place)
-        assert found, place
-        page = before + content + after
+    }
+    page = _filled((HERE / "index.html").read_text("utf-8"), contents)
     (made / "index.html").write_text(page, "utf-8")
     style = (ROOT / "replication/report/page.css", HERE / "live.css")
     (made / "style.css").write_text("".join(path.read_text("utf-8") for path in style), "utf-8")
@@ -171,38 +168,21 @@ def _page_of_parts(parts: Parts) -> str:
         f"SHA-256 of {html.escape(part['archive'])}: <code>{part['sha256']}</code></li>"
         for name, part in parts.items()
     )
-    policy = "default-src 'none'; style-src 'self'; base-uri 'none'; form-action 'none'"
-    return f"""\
-<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="{policy}">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<link rel="stylesheet" href="style.css">
-<title>What the page loads</title>
-</head>
-<body>
-<main>
-<h1>What the page loads, its licences and sources</h1>
-<p>All of it is given out from this folder, unchanged. files.json has the size and the SHA-256 of each
-file; the page uses none that differs. That guards against damage, not against whoever hosts it.</p>
-<ul class="lines">
-{items}
-<li><strong>coldspray</strong>, this project, under the MIT licence, which is in its wheel with all of
-its source.</li>
-</ul>
-<p>Licences: <a href="licences/MPL-2.0.txt">MPL-2.0</a>, <a href="licences/Python.txt">Python</a>; those
-of the wheels are in them.</p>
-<p><a href="index.html">Back to the audit</a></p>
-</main>
-</body>
-</html>
-"""
+    page = (HERE / "parts.html").read_text("utf-8")
+    return _filled(page, {"<!-- build.py puts the parts here -->": items})
+
+
+def _filled(page: str, contents: Mapping[str, str]) -> str:
+    """Put each content into the page, at its place: a text that the page has once."""
+    for place, content in contents.items():
+        before, here, after = page.partition(place)
+        assert here, place
+        page = before + content + after
+    return page
 
 
 def _list_of_files(made: Path, lock: dict[str, Any]) -> str:
-    """Return `files.json`: all files with sizes and hashes, and those that Python needs to start."""
+    """Return `files.json`: all files with sizes and hashes, and what Python needs to start."""
     paths = sorted(path for path in made.rglob("*") if path.is_file())
     files = {
         path.relative_to(made).as_posix(): {
@@ -218,7 +198,7 @@ def _list_of_files(made: Path, lock: dict[str, Any]) -> str:
 def main() -> int:
     """Read the command line, build, and say what came of it."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("folder", type=Path, metavar="FOLDER", help="a folder that is not there yet")
+    parser.add_argument("folder", type=Path, metavar="FOLDER", help="a new folder")
     folder = parser.parse_args().folder.absolute()
     try:
         build(folder)

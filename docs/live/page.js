@@ -23,7 +23,7 @@ async function begin() {
     throw new BrokenFile("files can be checked only on https or on this machine's own localhost");
   }
   const { files } = await listOfFiles(document.baseURI);
-  for (const name of ["files.js", "python.js", "prove.js", "model.js"]) {
+  for (const name of ["style.css", "files.js", "python.js", "prove.js", "model.js"]) {
     await checkedFile(name, files, document.baseURI);
   }
   const stored = JSON.parse(
