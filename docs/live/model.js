@@ -95,7 +95,9 @@ export class Model {
       if (!wasStarted) this.hears.say("Python is ready.");
       while (this.isStale) {
         this.isStale = false;
-        this.show(await this.python.ask({ ask: "model", inputs: this.inputs() }));
+        const inputs = this.inputs();
+        this.show(await this.python.ask({ ask: "model", inputs }));
+        this.said.dataset.asked = JSON.stringify(inputs); // the inputs that it is said of
       }
     } catch (error) {
       this.hears.sayWrong(error);
