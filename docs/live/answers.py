@@ -178,8 +178,7 @@ def _approaches(impact: Impact, depth: float) -> list[Table]:
 def _resistance(impact: Impact, text: str) -> Table:
     """Return the resistance that gives a measured depth, and the proven range for its digits."""
     try:
-        with place("measured depth"):
-            answer = solve_printed(impact, "resistance", {"depth": text})
+        answer = solve_printed(impact, "resistance", {"depth": text})
     except ValueError as error:
         return {"refused": str(error)}
     return {"resistance": answer.value, "interval": answer.interval, "depth": answer.depth}

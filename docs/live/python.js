@@ -17,8 +17,7 @@ export class Python {
   // call tries again.
   start() {
     this.starting ??= this.load().catch((error) => {
-      this.worker?.terminate();
-      this.worker = this.starting = undefined;
+      this.end(error);
       throw error;
     });
     return this.starting;
@@ -44,7 +43,9 @@ export class Python {
       wait();
       this.worker.onerror = (event) => {
         event.preventDefault();
-        settle(reject, new BrokenFile(`worker.js failed (${event.message ?? "not loaded"})`));
+        const error = new BrokenFile(`worker.js failed (${event.message ?? "not loaded"})`);
+        settle(reject, error);
+        this.end(error);
       };
       this.worker.onmessage = ({ data }) => {
         if (data.progress !== undefined) {
@@ -55,6 +56,14 @@ export class Python {
         else this.take(data);
       };
     });
+  }
+
+  // Nothing more will come of this worker: refuse what waits for it; the next start makes a new one.
+  end(error) {
+    for (const { reject } of this.waiting.values()) reject(error);
+    this.waiting.clear();
+    this.worker?.terminate();
+    this.worker = this.starting = undefined;
   }
 
   take({ number, answer, failed }) {
