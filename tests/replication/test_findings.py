@@ -8,7 +8,7 @@ from reference.ledger import Ledger, load
 from reference.units import to_si
 from replication.audit import findings as package
 from replication.audit.audit import Audit
-from replication.audit.findings import FINDINGS, findings, findings_on
+from replication.audit.findings import FINDINGS, finding, findings, findings_on
 from replication.audit.findings.evidence import (
     above,
     at_least,
@@ -36,6 +36,12 @@ IDS = [find.function.__name__.replace("_", "-") for find in FINDINGS]
 def test_a_finding_has_the_name_of_its_function(made: dict[str, Finding]) -> None:
     assert list(made) == IDS
     assert len(set(IDS)) == len(IDS)
+
+
+def test_one_finding_is_that_of_all(audit: Audit, made: dict[str, Finding]) -> None:
+    assert finding(audit, "two-schemes") == made["two-schemes"]
+    with pytest.raises(KeyError):
+        finding(audit, "two schemes")
 
 
 @pytest.mark.parametrize("name", IDS)

@@ -84,6 +84,17 @@ def findings(audit: Results) -> list[Finding]:
     return [_finding(find, audit) for find in FINDINGS]
 
 
+def finding(audit: Results, name: str) -> Finding:
+    """Return one finding, by its id: its function's name, with hyphens. KeyError if there is none.
+
+    >>> from replication.audit.audit import Audit
+    >>> finding(Audit(load()), "frank-zook-pair").holds
+    True
+    """
+    by_id = {find.function.__name__.replace("_", "-"): find for find in FINDINGS}
+    return _finding(by_id[name], audit)
+
+
 def findings_on(audit: Results, name: str) -> list[Finding]:
     """Return the findings that concern a claim or an equation, without the headline."""
     return [_finding(find, audit) for find in FINDINGS[1:] if name in find.concerns]

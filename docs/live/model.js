@@ -1,0 +1,228 @@
+// The model, live: fields and sliders, and what Python computes from them.
+
+const SVG = "http://www.w3.org/2000/svg";
+const REST = 120; // milliseconds: the address is written when the slider rests
+
+const shown = (value, digits = 6) => String(Number(value.toPrecision(digits)));
+const nano = (seconds) => shown(seconds * 1e9);
+const micro = (meters) => shown(meters * 1e6, 7);
+const giga = (value) => shown(value / 1e9, 5);
+
+export class Model {
+  constructor(python, hears) {
+    this.python = python;
+    this.hears = hears;
+    this.form = document.getElementById("inputs");
+    this.said = document.getElementById("said");
+    this.figure = document.getElementById("figure");
+    this.fields = [...this.form.querySelectorAll("input[data-unit]")];
+    this.sliders = new Map();
+    for (const slider of this.form.querySelectorAll("input[type=range]")) {
+      this.sliders.set(slider.dataset.of, slider);
+      slider.addEventListener("input", () => {
+        this.form.elements[slider.dataset.of].value = slider.value;
+        this.changed();
+      });
+    }
+    for (const field of this.fields) {
+      field.addEventListener("input", () => {
+        this.follow(field);
+        this.changed();
+      });
+    }
+    this.form.addEventListener("submit", (event) => {
+      event.preventDefault();
+      this.compute();
+    });
+    document.getElementById("report-case").addEventListener("click", () => {
+      this.form.reset();
+      this.changed();
+    });
+    new ResizeObserver(() => this.answer?.curve && this.draw(this.answer)).observe(this.figure);
+    document.getElementById("compute").disabled = false;
+    if (this.fromAddress()) this.compute();
+  }
+
+  // Take over the inputs of the address; return whether there are some.
+  fromAddress() {
+    const given = new URLSearchParams(location.search);
+    const named = this.fields.filter((field) => given.has(field.name));
+    for (const field of named) {
+      field.value = given.get(field.name);
+      this.follow(field);
+    }
+    if (named.length > 0) document.getElementById("model").open = true;
+    return named.length > 0;
+  }
+
+  toAddress() {
+    const changed = this.fields.filter((field) => field.value !== field.defaultValue);
+    const given = new URLSearchParams(changed.map((field) => [field.name, field.value]));
+    const query = given.size > 0 ? `?${given}` : location.pathname;
+    history.replaceState(null, "", `${query}${location.hash}`);
+  }
+
+  follow(field) {
+    const slider = this.sliders.get(field.name);
+    if (slider && Number.isFinite(Number(field.value))) slider.value = field.value;
+  }
+
+  changed() {
+    clearTimeout(this.resting);
+    this.resting = setTimeout(() => this.toAddress(), REST);
+    this.compute();
+  }
+
+  // A number is in the field's unit; a text such as "98 ksi" has its own.
+  inputs() {
+    return Object.fromEntries(
+      this.fields.map((field) => {
+        const text = field.value.trim();
+        const isNumber = text !== "" && Number.isFinite(Number(text));
+        return [field.name, isNumber ? `${text} ${field.dataset.unit}`.trim() : text];
+      }),
+    );
+  }
+
+  // Ask for the newest inputs; those that were passed over meanwhile are never computed.
+  async compute() {
+    this.isStale = true;
+    if (this.isAsking) return;
+    this.isAsking = true;
+    try {
+      const wasStarted = this.python.worker !== undefined;
+      await this.python.start();
+      if (!wasStarted) this.hears.say("Python is ready.");
+      while (this.isStale) {
+        this.isStale = false;
+        const inputs = this.inputs();
+        this.show(await this.python.ask({ ask: "model", inputs }));
+        this.said.dataset.asked = JSON.stringify(inputs); // the inputs that it is said of
+      }
+    } catch (error) {
+      this.hears.sayWrong(error);
+      this.said.textContent = `Not computed: ${error.message}`;
+    }
+    this.isAsking = false;
+  }
+
+  show(answer) {
+    this.form.classList.toggle("wrong", answer.refused !== undefined);
+    if (answer.refused !== undefined) {
+      this.said.textContent = `Not computed: ${answer.refused}`;
+      return;
+    }
+    this.answer = answer;
+    document.getElementById("results").hidden = false;
+    const { sheet, depth, inverse } = answer;
+    const bySheet = sheet.refused
+      ? `The sheet was not run: ${sheet.refused}.`
+      : `The sheet: ${micro(sheet.depth)} µm after ${sheet.steps} steps, X/R ` +
+        `${shown(sheet.normalized_depth)}.`;
+    this.said.textContent =
+      `Exact depth ${micro(depth)} µm, X/R ${shown(answer.normalized_depth)}, at rest after ` +
+      `${nano(answer.stop_time)} ns, for Rₜ = ${giga(answer.resistance)} GPa. ${bySheet}`;
+    this.said.dataset.depth = depth;
+    this.said.dataset.sheet = sheet.depth ?? "";
+    document.getElementById("inverse").textContent = inverse.refused
+      ? `No resistance: ${inverse.refused}`
+      : `A depth of ${micro(inverse.depth)} µm takes Rₜ = ${giga(inverse.resistance)} GPa; ` +
+        `${inverse.interval.map(giga).join(" to ")} GPa for every depth that prints like it.`;
+    this.showRows(sheet);
+    this.showApproaches(answer.approaches);
+    this.draw(answer);
+  }
+
+  showRows(sheet) {
+    const body = document.getElementById("rows");
+    body.replaceChildren();
+    if (sheet.refused) return;
+    const row = ([k, time, before, x, deceleration, after]) => [
+      k, nano(time), shown(before, 7), micro(x), giga(deceleration),
+      after === null ? "" : shown(after, 7),
+    ];
+    const rows = sheet.first.map(row);
+    if (sheet.last[0]?.[0] > sheet.first.length) rows.push(["…", "", "", "", "", ""]);
+    rows.push(...sheet.last.map(row));
+    for (const cells of rows) body.append(tableRow(cells));
+  }
+
+  showApproaches(approaches) {
+    const most = Math.max(1, ...approaches.map((a) => a.normalized_depth));
+    document.getElementById("approaches-live").replaceChildren(
+      ...approaches.map(({ name, normalized_depth: value }) => {
+        const bar = document.createElement("meter");
+        bar.max = most;
+        bar.value = value;
+        bar.setAttribute("aria-label", `X/R, ${name}`);
+        return tableRow([name, shown(value, 4), bar]);
+      }),
+    );
+  }
+
+  // Figure 3 of the report: the exact motion as a line, rows of the sheet as marks on it.
+  draw({ curve, sheet, depth }) {
+    const width = Math.max(280, this.figure.clientWidth);
+    const height = Math.min(360, Math.max(240, width * 0.55));
+    const [left, top, right, bottom] = [46, 10, width - 12, height - 42];
+    const points = sheet.points ?? [];
+    const ends = [curve.at(-1), ...points];
+    const times = ticks(Math.max(...ends.map(([t]) => t)) * 1e9);
+    const depths = ticks(Math.max(...ends.map(([, x]) => x)) * 1e6);
+    const across = (t) => left + ((right - left) * t * 1e9) / times.at(-1);
+    const down = (x) => bottom - ((bottom - top) * x * 1e6) / depths.at(-1);
+    const svg = drawn("svg", { viewBox: `0 0 ${width} ${height}`, width, height, role: "img" });
+    svg.setAttribute("aria-label", `Depth against time, from 0 to ${micro(depth)} µm at rest`);
+    for (const time of times) {
+      const x = across(time / 1e9);
+      svg.append(drawn("path", { class: "grid", d: `M${x} ${top}V${bottom}` }));
+      svg.append(drawn("text", { x, y: bottom + 16, "text-anchor": "middle" }, shown(time)));
+    }
+    for (const value of depths) {
+      const y = down(value / 1e6);
+      svg.append(drawn("path", { class: "grid", d: `M${left} ${y}H${right}` }));
+      svg.append(drawn("text", { x: left - 6, y: y + 4, "text-anchor": "end" }, shown(value)));
+    }
+    const middle = (left + right) / 2;
+    svg.append(drawn("text", { x: middle, y: height - 6, "text-anchor": "middle" }, "Time [ns]"));
+    const upright = `rotate(-90 12 ${(top + bottom) / 2})`;
+    const place = { x: 12, y: (top + bottom) / 2, "text-anchor": "middle", transform: upright };
+    svg.append(drawn("text", place, "Depth [µm]"));
+    const line = curve.map(([t, x]) => `${across(t)},${down(x)}`).join(" ");
+    svg.append(drawn("polyline", { class: "exact", points: line }));
+    for (const [t, x] of points) {
+      svg.append(drawn("circle", { class: "row", cx: across(t), cy: down(x), r: 3.2 }));
+    }
+    this.figure.replaceChildren(svg);
+    const every = sheet.every === 1 ? "each row" : `every row whose number ${sheet.every} divides`;
+    document.getElementById("figure-words").textContent = sheet.refused
+      ? "Line: the exact motion. The sheet was not run."
+      : `Line: the exact motion. Points: the sheet, ${every}, and its last row.`;
+  }
+}
+
+function tableRow(cells) {
+  const row = document.createElement("tr");
+  cells.forEach((content, k) => {
+    const cell = document.createElement(k === 0 ? "th" : "td");
+    if (k === 0) cell.scope = "row";
+    cell.append(content);
+    row.append(cell);
+  });
+  return row;
+}
+
+function drawn(name, attributes, words = "") {
+  const element = document.createElementNS(SVG, name);
+  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, value);
+  element.textContent = words;
+  return element;
+}
+
+// Round numbers from 0 to the first that is at least the greatest value.
+function ticks(greatest) {
+  const power = 10 ** Math.floor(Math.log10(greatest));
+  const part = [0.2, 0.5, 1, 2].find((p) => greatest / (p * power) <= 6) * power;
+  const count = Math.ceil(greatest / part);
+  return Array.from({ length: count + 1 }, (_, k) => Number((k * part).toPrecision(6)));
+}
