@@ -26,6 +26,11 @@ NO_BETA = "β = not computed"
 KEEPS_NAME = "The sheet keeps the name with which it was written."
 NOT_COARSER = "Its time step is not longer than dt_s."
 
+# About the depth on the sheet Solve.
+BY_DEPTH = "Solved for the measured depth X."
+BY_RATIO = "Solved for the measured X/R; the depth above it is not used."
+NOT_SOLVED = "NOT SOLVED: C6 or C7 is out of its limits, or an input cannot be used."
+
 # About Figure 5, and about the runs of the sheet Convergence.
 ALL_POINTS = "All points of the chart are computed."
 POINTS_MISSING = "POINTS ARE MISSING: see the sheet Inputs."
