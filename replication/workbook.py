@@ -535,15 +535,14 @@ def _solve(ledger: Ledger, runs: Runs) -> Tree:
         "solve.depth.accepted": typed,
         "solve.ratio": "",
         "solve.ratio.accepted": "",
-        "solve.message": messages.BY_DEPTH,
         "by_ratio": 0,
         "y_meas": y,
         "X_meas": y * radius,
         "CV_PV_meas": ratio,
         "L_meas": logarithm,
     }
-    # No target resistance that a cell can hold stops a particle so late.
     solved = logarithm < inverse.LARGEST_LOGARITHM
+    values["solve.message"] = messages.BY_DEPTH if solved else messages.TOO_DEEP
     resistance = inverse.resistance_for_depth(x, v, radius, particle, target)
     back = _without_steps(
         replace(shared, beta=None, flow_stress=None, resistance=resistance if solved else 1.0)

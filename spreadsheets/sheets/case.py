@@ -17,7 +17,7 @@ from spreadsheets.sheets.formulas import cap_angle, depth, log1p
 FIRST_ROW = 10
 """The row of the sheet that holds row 0 of the scheme, the impact itself."""
 
-_ROWS_OF_A_PAGE = 85
+_ROWS_OF_A_PAGE = 81
 """The most rows that are printed on a single page, in type of 6.5 points."""
 
 MAX_ROWS = 20_000

@@ -73,8 +73,8 @@ def _results(sheet: SheetPlan, pages: Sequence[CaseSheet]) -> None:
     The exact depth is the one at rest, without time steps.
     """
     _heads(
-        sheet, "Results with the inputs in use", "Final depth [µm]", "Exact depth [µm]", "It prints",
-        "X/R of the sheet", "It prints", "State of the run", right="BCDEF",
+        sheet, "Results with the inputs in use", "Final depth [µm]", "Exact depth [µm]",
+        "It prints", "X/R of the sheet", "It prints", "State of the run", right="BCDEF",
     )  # fmt: skip
     for case in pages:
         key, s = f"overview.{case.part}", case.suffix
@@ -108,7 +108,7 @@ def _results(sheet: SheetPlan, pages: Sequence[CaseSheet]) -> None:
         sheet.put(A=Cell(label, "link", link=("Inputs", "A1")), B=count)
 
 
-_FIGURE_ROWS = 18
+_FIGURE_ROWS = 16
 """The rows that the chart covers."""
 
 

@@ -43,6 +43,7 @@ def solve(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         " use.",
         width=150,
     )
+    sheet.row += 1
     _measured(sheet)
     _pressure(sheet)
     _resistance(sheet, cases)
@@ -62,11 +63,9 @@ def _measured(sheet: SheetPlan) -> None:
     depth_row, ratio_row = sheet.row, sheet.row + 1
     _typed(sheet, "depth", "X", "measured depth", "um", DEPTH_LIMITS)
     _typed(sheet, "ratio", "X/R", "or measured depth over radius; may be blank", "1", RATIO_LIMITS)
-    message = (
-        f'=IFERROR(IF(y_meas>0,IF(by_ratio=1,"{messages.BY_RATIO}","{messages.BY_DEPTH}"),""),'
-        f'"{messages.NOT_SOLVED}")'
-    )
-    sheet.rules = [Rule(f"A{sheet.row}", f'=$A${sheet.row}="{messages.NOT_SOLVED}"', "warning")]
+    taken = f'IF(by_ratio=1,"{messages.BY_RATIO}","{messages.BY_DEPTH}")'
+    message = f'=IFERROR(IF(L_meas<L_most,{taken},"{messages.TOO_DEEP}"),"{messages.NOT_SOLVED}")'
+    sheet.rules = [Rule(f"A{sheet.row}", "=ISERROR(p_meas)", "warning")]
     sheet.put(A=formula("solve.message", message, "message"))
     sheet.row += 1
     sheet.block("The crater of this depth")
