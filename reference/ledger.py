@@ -158,7 +158,7 @@ class Equation(Entry, frozen=True, eq=False):
     id: str
     title: str
     quote: str
-    kind: Literal["derived", "definition", "taken over"]
+    kind: Literal["derived", "definition", "repeat", "taken over"]
     follows_from: str
     place: Place = Place()
 

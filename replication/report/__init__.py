@@ -109,29 +109,17 @@ def _from_template(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
 
 # For a terminal
 
-MAIN = (
-    "depth-beta-3", "depth-beta-5", "ratio-beta-5", "observed-depth-ratio", "goodier-beta",
-    "walker-anderson-beta",
-)  # fmt: skip
-"""The ids of the report's main results."""
-
 FINDINGS = 3
 """The number of findings that fit on one screen."""
 
 
 def summary(record: Record, width: int, strong: bool = False) -> str:
     """Write the audit on one screen: counts, what fails, main results, findings, the headline."""
-    main = [
-        (c.claim.title, words.with_unit(c.claim), words.measured(c.computed, c.claim.unit),
-         c.verdict)
-        for c in record.claims
-        if c.id in MAIN and c.computed is not None
-    ]  # fmt: skip
     parts = {
         "record": record,
         "words": words,
         "not_as_printed": tables.not_as_printed(record),
-        "main": Table("Main results", ("number", "printed", "computed", "verdict"), main),
+        "main": tables.main(record),
         "findings": record.findings[:FINDINGS],
         "more": len(record.findings[FINDINGS:]),
     }

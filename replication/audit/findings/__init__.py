@@ -24,6 +24,12 @@ from replication.audit.findings.frank_zook import (
     two_resistances,
 )
 from replication.audit.findings.hydrocodes import autodyne_cells, cth_pressure, unlike_strengths
+from replication.audit.findings.implications import (
+    energy_balance,
+    half_buried,
+    hardness_again,
+    no_penetration,
+)
 from replication.audit.findings.resistance import (
     beta_and_flow_stress,
     inertia_term,
@@ -54,8 +60,12 @@ FINDINGS: tuple[FindingFunction, ...] = (
     inertia_term,
     observed_beta,
     compared_velocity,
+    half_buried,
     rigid_strength,
+    no_penetration,
+    energy_balance,
     strengths,
+    hardness_again,
     unlike_strengths,
     autodyne_cells,
     cth_pressure,
