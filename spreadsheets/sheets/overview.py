@@ -127,7 +127,8 @@ def _failures(sheet: SheetPlan, audited: AuditResult, computed_in: Mapping[str, 
     _heads(sheet, "What does not follow from the report", *beside, right="BC")
     for name in audited.failing:
         _failure(sheet, name, audited, computed_in)
-    _heads(sheet, "Where public sources differ", *beside, right="BC")
+    if audited.differing:
+        _heads(sheet, "Where public sources differ", *beside, right="BC")
     for name in audited.differing:
         _failure(sheet, name, audited, computed_in)
     _heads(sheet, "Verdicts of the audit", "Entries", "", "Live verdicts", "Cells", right="BDE")

@@ -207,12 +207,11 @@ def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
 # A resistance that is given
 
 
-@pytest.mark.parametrize(
-    ("choice", "label"), [("yours", "R_t as given"), ("report", "R_t as in the report")]
-)
 def test_a_given_resistance_is_called_so_until_that_of_the_report_is_taken(
-    engine: Engine, files: dict[str, Any], tmp_path: Path, choice: str, label: str
+    engine: Engine, files: dict[str, Any], tmp_path: Path
 ) -> None:
-    (page,) = files["resistance given"].recalculated(engine, [{"inputs.choice": choice}], tmp_path)
-    assert page["label"] == label
-    assert page["figure_3.case.message"] == f"{label}: {page['message']}"
+    typed = [{"inputs.choice": choice} for choice in ("yours", "report")]
+    pages = files["resistance given"].recalculated(engine, typed, tmp_path)
+    for page, label in zip(pages, ("R_t as given", "R_t as in the report"), strict=True):
+        assert page["label"] == label
+        assert page["figure_3.case.message"] == f"{label}: {page['message']}"
