@@ -23,7 +23,7 @@ from replication.cases import BETA_3, BETA_5
 from replication.error import COARSE, DIGITS, NOTES, OFF_STOP, too_long
 from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
-from replication.models import crater, depth, estimates
+from replication.models import crater, depth, estimates, inverse
 from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import Row, Sheet, deceleration, run
 from replication.text import with_unit
@@ -35,6 +35,7 @@ from spreadsheets.sheets.case import CaseSheet, prepared_rows
 from spreadsheets.sheets.convergence import LEVELS, NO_ORDER, run_inputs
 from spreadsheets.sheets.figure_5 import POINTS
 from spreadsheets.sheets.inputs import Input, inputs_of
+from spreadsheets.sheets.solve import MEASURED
 from spreadsheets.sheets.table_a1 import ABOVE, TABLE_ROWS
 from spreadsheets.sheets.table_a1_check import DIGITS as DECIMALS
 from spreadsheets.sheets.table_a1_check import NO_DIFFERENCE
@@ -227,6 +228,7 @@ def _values(
         | _frank_zook(last, si)
         | _crater(first, si, float(ledger.value("observed-third")))
         | _resistance(fine, si)
+        | _solve(ledger, fine)
     )
 
 
@@ -239,6 +241,7 @@ def _inputs(
     values: Tree = {
         "pi_": math.pi,
         "ksi_Pa": to_si("ksi"),
+        "L_most": inverse.LARGEST_LOGARITHM,
         "travel_most": COARSE,
         "excess_most": DIGITS,
         "off_stop_most": OFF_STOP,
@@ -328,7 +331,7 @@ def _state(sheet: Sheet) -> Tree:
         "doubts": doubts,
         "reverses": "reversed" in kinds,
         "early": stop / rest < 1 - DIGITS,
-        "trust": 0 if doubts else 1 if "reversed" in kinds else 2,
+        "trust": 0 if doubts else 1,
         "message": _message(sheet),
     }
 
@@ -367,6 +370,7 @@ def _overview(runs: Runs, values: Tree) -> Tree:
     for page, _ in runs:
         shown[page.part] = {
             "depth_um": values[f"depth_um{page.suffix}"],
+            "exact_um": values[f"X_rest{page.suffix}"],
             "normalized_depth": values[f"normalized_depth{page.suffix}"],
             "message": _said(page, values),
         }
@@ -515,6 +519,63 @@ def _resistance(runs: Runs, si: Mapping[str, float]) -> Tree:
             f"stress_over_copper{page.input_suffix}": stress / si["Y_copper"],
         }
     return values
+
+
+def _solve(ledger: Ledger, runs: Runs) -> Tree:
+    """Return the inputs that give the measured depth, each with all others as in use."""
+    typed = float(ledger.value(MEASURED) / to_si("um"))
+    x = _si(typed, "um")
+    shared = runs[0][1].impact
+    v, radius, particle, target, _ = shared.motion.values()
+    y = x / radius
+    ratio = crater.crater_volume_ratio(y)
+    logarithm = ratio * (target / particle)
+    values: Tree = {
+        "solve.depth": typed,
+        "solve.depth.accepted": typed,
+        "solve.ratio": "",
+        "solve.ratio.accepted": "",
+        "by_ratio": 0,
+        "y_meas": y,
+        "X_meas": y * radius,
+        "CV_PV_meas": ratio,
+        "L_meas": logarithm,
+    }
+    solved = logarithm < inverse.LARGEST_LOGARITHM
+    values["solve.message"] = messages.BY_DEPTH if solved else messages.TOO_DEEP
+    resistance = inverse.resistance_for_depth(x, v, radius, particle, target)
+    back = _without_steps(
+        replace(shared, beta=None, flow_stress=None, resistance=resistance if solved else 1.0)
+    )
+    of_resistance = {
+        "exp_L": math.exp(min(logarithm, inverse.LARGEST_LOGARITHM)),
+        "p_meas": math.expm1(min(logarithm, inverse.LARGEST_LOGARITHM)),
+        "R_t_meas": resistance,
+        "R_t_meas_GPa": resistance / 1e9,
+        "p_back": back["pressure"],
+        "ln_back": back["ln"],
+        "c_back": back["c"],
+        "h_back": back["h"],
+        "X_R_back": back["normalized_depth"],
+        "X_back_um": back["depth_um"],
+    }
+    for page, sheet in runs:
+        impact, s = sheet.impact, page.input_suffix
+        r_t = impact.target_resistance
+        if impact.beta is not None and impact.flow_stress is not None:
+            of_resistance["beta_meas"] = resistance / impact.flow_stress
+            of_resistance[f"Y_t_meas{s}"] = resistance / impact.beta
+            values[f"solve.Y_t{s}"] = impact.flow_stress
+        velocity = inverse.velocity_for_depth(x, radius, particle, target, r_t)
+        of_resistance[f"V_impact_meas{s}"] = velocity
+        values |= {
+            f"solve.V_impact{s}": v,
+            f"solve.R_p{s}": radius,
+            f"solve.rho_p{s}": particle,
+            f"R_p_meas{s}": inverse.radius_for_depth(x, v, particle, target, r_t),
+            f"rho_p_meas{s}": inverse.particle_density_for_depth(x, v, radius, target, r_t),
+        }
+    return values | (of_resistance if solved else dict.fromkeys(of_resistance, NOT_AVAILABLE))
 
 
 def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:

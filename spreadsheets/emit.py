@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan
+from spreadsheets.plan import ROW_HEIGHT, Cell, Chart, SheetPlan, Value, WorkbookPlan
 from spreadsheets.safely import UNREADABLE, check_target
 from spreadsheets.styles import CURVES, RULES, STYLES
 
@@ -149,7 +149,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
             # A width is counted in digits, and most letters are narrower than a digit.
             if cell.wrap and len(cell.text) > 1.2 * sheet.widths[address[0]]:
-                page.set_row(int(address[1:]) - 1, 30)
+                page.set_row(int(address[1:]) - 1, 2 * ROW_HEIGHT)
             if cell.named:
                 named = f"={_absolute(sheet.name, address)}"
                 if book.define_name(cell.key, named) == -1:
@@ -163,7 +163,8 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             }
             page.conditional_format(rule.cells, options)
         if sheet.chart:
-            _draw(book, page, sheet.name, sheet.chart, shown[sheet.name], values)
+            drawn = sheet.chart.sheet or sheet.name
+            _draw(book, page, drawn, sheet.chart, shown[drawn], values)
     book.close()
     parts = _parts(file.getvalue())
     corrected = {name: _corrected(name, part) for name, part in parts.items()}
@@ -197,10 +198,12 @@ def _set_up(page: Any, sheet: SheetPlan, unlocked: Any) -> None:
     page.set_column("A:Z", None, unlocked)
     for column, width in sheet.widths.items():
         page.set_column(f"{column}:{column}", width, unlocked)
-    page.set_landscape()
+    page.set_default_row(ROW_HEIGHT)
+    page.set_row(0, 18)  # the title
+    page.set_portrait() if sheet.portrait else page.set_landscape()
     page.set_paper(1)  # US Letter
-    page.set_margins(left=0.3, right=0.3, top=0.7, bottom=0.6)
-    page.fit_to_pages(1, 0)
+    page.set_margins(left=0.3, right=0.3, top=0.6, bottom=0.5)
+    page.fit_to_pages(1, int(sheet.one_page))  # 0 pages high: as many as it takes
     page.set_header('&L&"Arial"&10&F&R&"Arial"&10&A')
     page.set_footer('&R&"Arial"&10Page &P of &N')
     if sheet.print_area:
@@ -260,7 +263,7 @@ def _draw(
     book: Any, page: Any, name: str, chart: Chart, shown: Mapping[str, Value],
     values: Mapping[str, Value],
 ) -> None:  # fmt: skip
-    """Draw the chart of the sheet `name` on its page; `shown` is what the sheet's cells show."""
+    """Draw a chart of the cells of the sheet `name` on a page; `shown` is what they show."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
     for curve in chart.curves:
         look = CURVES[curve.beta]

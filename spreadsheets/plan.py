@@ -24,6 +24,9 @@ NOT_COMPUTED = "not computed"
 NOT_AVAILABLE = "#N/A"
 """The value of a cell that depends on an input that cannot be used, or on rows that are missing."""
 
+ROW_HEIGHT = 13.5
+"""Height of a row in points, for type of 10 points."""
+
 HOME = "Overview"
 """The first sheet; every other sheet has a link back to it."""
 
@@ -118,7 +121,8 @@ class Curve(NamedTuple):
 class Chart:
     """The chart of a sheet, with its upper left corner in the cell `at` and its size in pixels.
 
-    describe: says in words, from the values by key, what the chart shows as written.
+    sheet: the sheet with the cells of the curves, if it is another one. describe: says in words,
+    from the values by key, what the chart shows as written.
     """
 
     at: str
@@ -129,6 +133,7 @@ class Chart:
     curves: Sequence[Curve]
     describe: Callable[[Mapping[str, Value]], str]
     logarithmic: bool = False
+    sheet: str = ""
 
 
 LINE_HEADS = (
@@ -145,8 +150,9 @@ class SheetPlan:
     about: what the sheet shows, for `Overview`. row: where the next cells go. columns: those of
     symbol, meaning, value, unit, printed text and source in a `line`. headed: the first column that
     scrolls, and the first and last row of heads; heads do not scroll, and are repeated on every
-    printed page. page_break: the last row of page 1. filtered: the cells of a table that has a
-    filter. claims: the address of the cell that computes a claim, by the claim's id.
+    printed page. page_break: the last row of page 1. portrait, one_page: how it is printed; the
+    columns always fit the width of a page. filtered: the cells of a table that has a filter.
+    claims: the address of the cell that computes a claim, by the claim's id.
     """
 
     name: str
@@ -161,6 +167,8 @@ class SheetPlan:
     chart: Chart | None = None
     print_area: str = ""
     page_break: int | None = None
+    portrait: bool = False
+    one_page: bool = False
     filtered: str = ""
     claims: dict[str, str] = field(default_factory=dict)
 

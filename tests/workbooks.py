@@ -33,7 +33,7 @@ def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
     with zipfile.ZipFile(io.BytesIO(content)) as before, zipfile.ZipFile(buffer, "w") as after:
         for info in before.infolist():
             if part := change(info.filename, before.read(info)):
-                after.writestr(info, part)
+                after.writestr(info, part, zipfile.ZIP_STORED)  # to compress takes most of the time
     return buffer.getvalue()
 
 

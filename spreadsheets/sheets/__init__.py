@@ -21,6 +21,7 @@ from spreadsheets.sheets.frank_zook import frank_zook
 from spreadsheets.sheets.inputs import inputs_sheet
 from spreadsheets.sheets.overview import PROGRAM, overview, title_of
 from spreadsheets.sheets.resistance import resistance
+from spreadsheets.sheets.solve import solve
 from spreadsheets.sheets.table_a1 import table_a1
 from spreadsheets.sheets.table_a1_check import table_a1_check
 
@@ -39,7 +40,7 @@ def workbook_plan(
     sheets += [table_a1_check(ledger, table)] if report else []
     sheets += [case_sheet(ledger, page) for page in pages]
     sheets += [figure_3(ledger, cases), figure_5(ledger, cases[-1]), convergence(ledger, cases)]
-    sheets += [frank_zook(ledger), crater(ledger), resistance(ledger, cases)]
+    sheets += [frank_zook(ledger), crater(ledger), resistance(ledger, cases), solve(ledger, cases)]
     computed_in = WorkbookPlan(sheets=tuple(sheets)).claims
     sheets += [audit_sheet(ledger, audited, computed_in)] if audited else []
     sheets = [overview(ledger, pages, sheets, audited, computed_in), *sheets]

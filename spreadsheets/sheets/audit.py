@@ -77,7 +77,8 @@ def audit_sheet(
         " claims ID.",
         width=150,
     )
-    sheet.print_area, sheet.filtered = f"A1:I{last}", f"A{_HEAD_ROW}:L{last}"
+    sheet.print_area, sheet.portrait = f"A1:G{last}", True
+    sheet.filtered = f"A{_HEAD_ROW}:L{last}"
     sheet.row = 6
     sheet.block("Live verdicts")
     for verdict, name in LIVE_VERDICTS.items():

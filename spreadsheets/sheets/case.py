@@ -17,6 +17,9 @@ from spreadsheets.sheets.formulas import cap_angle, depth, log1p
 FIRST_ROW = 10
 """The row of the sheet that holds row 0 of the scheme, the impact itself."""
 
+_ROWS_OF_A_PAGE = 81
+"""The most rows that are printed on a single page, in type of 6.5 points."""
+
 MAX_ROWS = 20_000
 """The most rows of a sheet; to write them takes half a minute and gigabytes of memory."""
 
@@ -74,9 +77,12 @@ class CaseSheet:
         return f"{column}{FIRST_ROW}:{column}{FIRST_ROW + self.rows}"
 
     def rules(self, cells: str) -> list[Rule]:
-        """Return the rules by which cells show in color whether the run can be trusted."""
-        trust = f"=trust{self.suffix}="
-        return [Rule(cells, f"{trust}0", "warning"), Rule(cells, f"{trust}1", "changed")]
+        """Return the rule by which cells show in color that the run cannot be trusted.
+
+        That the last step reverses the velocity is no warning: the sheet stops at the first row
+        below the stop velocity, which in most cases is below zero.
+        """
+        return [Rule(cells, f"=trust{self.suffix}=0", "warning")]
 
 
 def prepared_rows(steps: int, wanted: int | None = None) -> int:
@@ -215,8 +221,9 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     if case.coarse:
         about = "The same with the time step of the comparison, and what that changes (section 3)"
     sheet = SheetPlan(ledger=ledger, name=case.name, about=about, columns="IJKLMN")
-    sheet.widths = {"A": 5, "G": 10, "I": 8, "J": 33, "K": 13, "L": 7, "M": 24, "N": 26}
-    sheet.wide("BCDEF", 11)
+    sheet.widths = {"A": 5, "B": 9, "G": 9, "I": 8, "J": 29, "K": 12, "L": 7, "M": 21, "N": 26}
+    sheet.wide("CF", 10)
+    sheet.wide("DE", 10.5)
     sheet.wide("H", 13 if case.scheme is Scheme.CENTERED else 3)
     sheet.begin("Rigid-body penetration, row by row")
     _label(sheet, case)
@@ -227,13 +234,13 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed"
         f" positive; the drag is taken at the {case.scheme.drag_at} velocity of a row (scheme:"
         f" {case.scheme}). Appendix, Eqs. 13, A-1 to A-3.",
-        width=205,
+        width=160,
     )
     sheet.say(
         "The run stops with the first row below v_stop; printed pages end with the last row as"
         f" written. {case.rows} rows are prepared; coldspray workbook prepares N, up to"
         f" {MAX_ROWS}, with the same options and --rows N.",
-        width=205,
+        width=160,
     )
     top = sheet.row = FIRST_ROW - 2
     last_column = _rows(sheet, case)
@@ -245,7 +252,9 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     if case.coarse:
         _comparison(sheet, case)
     sheet.headed = "A", top, top + 1
-    sheet.print_area = f"A1:M{max(FIRST_ROW + case.steps, sheet.row - 1)}"
+    last = max(FIRST_ROW + case.steps, sheet.row - 1)
+    sheet.print_area, sheet.portrait = f"A1:M{last}", True
+    sheet.one_page = last <= _ROWS_OF_A_PAGE
     used = f"A{FIRST_ROW}:{last_column}{FIRST_ROW + case.rows}"
     sheet.rules = [
         Rule(used, f"=ISNUMBER($A{FIRST_ROW})", "ruled"),
@@ -459,8 +468,7 @@ def _state(sheet: SheetPlan, case: CaseSheet) -> None:
         source="share below 1 - excess_most", shown=yes,
     )  # fmt: skip
     sheet.line(
-        f"trust{s}", "", "2 sound, 1 with a warning, 0 do not use",
-        f"=IFERROR(IF(doubts{s}>0,0,IF(reverses{s}=1,1,2)),0)", shown="0",
+        f"trust{s}", "", "it can be trusted", f"=IFERROR(IF(doubts{s}>0,0,1),0)", shown=yes,
     )  # fmt: skip
 
 

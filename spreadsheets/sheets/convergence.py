@@ -25,10 +25,12 @@ def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
 def convergence(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
     """Plan the errors of the final depth at eight time steps, and the inputs of these runs."""
     about = "Final depth at eight time steps against the depth at rest, with its chart"
-    sheet = SheetPlan(ledger=ledger, name="Convergence", about=about, page_break=34)
+    sheet = SheetPlan(ledger=ledger, name="Convergence", about=about)
+    sheet.portrait = sheet.one_page = True
     sheet.begin("Convergence with the time step")
-    sheet.wide("ABCDEFGIJK", 12)
-    sheet.wide("H", 42)
+    sheet.wide("ABCDEFGK", 10)
+    sheet.wide("IJ", 12)
+    sheet.wide("H", 40)
     sheet.row = 4
     sheet.say(
         "Gray: computed when the workbook was written, and not live: each line is a whole sheet"
@@ -132,7 +134,7 @@ def _chart(cases: Sequence[CaseSheet], curves: Sequence[Curve]) -> Chart:
         title="Error of the final depth against the time step",
         x_title="Time step [ns]",
         y_title="|final depth - depth at rest| [µm]",
-        size=(610, 430),
+        size=(515, 430),
         curves=curves,
         describe=describe,
         logarithmic=True,

@@ -49,8 +49,9 @@ def figure_3(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         size=(820, 470),
         curves=curves,
         describe=describe,
+        sheet=sheet.name,
     )
-    sheet.print_area = "A1:N31"
+    sheet.print_area = "A1:N34"
     return sheet
 
 

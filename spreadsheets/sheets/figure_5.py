@@ -58,7 +58,7 @@ def figure_5(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         curves=[curve],
         describe=describe,
     )
-    sheet.print_area = "A1:N32"
+    sheet.print_area = "A1:N36"
     return sheet
 
 

@@ -13,6 +13,18 @@ def log1p(x: str) -> str:
     return f"=IF({x}<0.00000001,{x}-{x}*{x}/2,{x}*LN(1+{x})/((1+{x})-1))"
 
 
+def expm1(x: str, exp_x: str) -> str:
+    """e^x - 1 for x >= 0, right to the last digits however small x is; e^x is in a cell of its own.
+
+    If e^x is rounded to u, then u - 1 is off, but x/ln(u) corrects for that. Below 1e-8 a series of
+    two terms suffices: its third term would be less than the last digit of the first.
+
+    >>> expm1("L_meas", "exp_L")
+    '=IF(L_meas<0.00000001,L_meas+L_meas*L_meas/2,(exp_L-1)*L_meas/LN(exp_L))'
+    """
+    return f"=IF({x}<0.00000001,{x}+{x}*{x}/2,({exp_x}-1)*{x}/LN({exp_x}))"
+
+
 def cap_angle(c: str) -> str:
     """The angle h = asin(sqrt(3c)/2)/3 of the root of y^2 - y^3/3 = c, for c up to 2/3.
 

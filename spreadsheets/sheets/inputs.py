@@ -158,6 +158,7 @@ _OF_NO_CASE: Mapping[str, list[Input]] = {
 CONSTANTS = {
     "pi_": ("circumference over diameter, π", "1"),
     "ksi_Pa": ("1000 pound-force per square inch", "Pa"),
+    "L_most": ("e^L is computed for L below this", "1"),
     "travel_most": ("a step may pass this share of the radius", "1"),
     "excess_most": ("the sheet may exceed the exact depth by", "1"),
     "off_stop_most": ("the sheet may be off the exact depth at v_stop by", "1"),
@@ -167,8 +168,8 @@ pi, so it stands in a cell. The last three are limits beyond which a run is not 
 command warns beyond the same ones."""
 
 _HEADS = (
-    ("Symbol", 9), ("Quantity", 50), ("Type here", 13), ("Unit", 8), ("Check", 12), ("In use", 14),
-    ("Unit", 8), ("The report’s", 12), ("It prints", 15), ("Where", 27), ("Least", 10),
+    ("Symbol", 8), ("Quantity", 41), ("Type here", 12), ("Unit", 7), ("Check", 11), ("In use", 13),
+    ("Unit", 7), ("The report’s", 12), ("It prints", 14), ("Where", 23), ("Least", 10),
     ("Greatest", 12), ("Name", 14),
 )  # fmt: skip
 
@@ -198,7 +199,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     _summary(sheet, checks)
     _derived(sheet, cases)
     _constants(sheet)
-    sheet.print_area = f"A1:J{sheet.row - 1}"
+    sheet.print_area, sheet.portrait, sheet.one_page = f"A1:J{sheet.row - 1}", True, True
     faults = ",".join(f'$E{first}="{fault}"' for fault in (TOO_SMALL, TOO_LARGE, NO_NUMBER))
     sheet.rules = [
         Rule(checks, f"=OR({faults})", "warning"),

@@ -26,6 +26,12 @@ NO_BETA = "β = not computed"
 KEEPS_NAME = "The sheet keeps the name with which it was written."
 NOT_COARSER = "Its time step is not longer than dt_s."
 
+# About the depth on the sheet Solve.
+BY_DEPTH = "Solved for the measured depth X."
+BY_RATIO = "Solved for the measured X/R; the depth above it is not used."
+TOO_DEEP = "TOO DEEP: a target resistance that gives this depth is below 1E-240 Pa."
+NOT_SOLVED = "NOT SOLVED: what is typed is not within G to H, or an input cannot be used."
+
 # About Figure 5, and about the runs of the sheet Convergence.
 ALL_POINTS = "All points of the chart are computed."
 POINTS_MISSING = "POINTS ARE MISSING: see the sheet Inputs."

@@ -1,12 +1,23 @@
 """The sheet `Overview`: results, whether they can be trusted, what the audit found, all sheets."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from importlib.metadata import version
 from itertools import zip_longest
 from textwrap import wrap
 
 from reference.ledger import Ledger
-from spreadsheets.plan import HOME, Cell, Place, Rule, SheetPlan, formula, printed, recorded
+from spreadsheets.plan import (
+    HOME,
+    ROW_HEIGHT,
+    Cell,
+    Place,
+    Rule,
+    SheetPlan,
+    formula,
+    printed,
+    recorded,
+)
 from spreadsheets.sheets.audit import LIVE_VERDICTS, AuditResult
 from spreadsheets.sheets.case import CaseSheet
 
@@ -22,10 +33,8 @@ def overview(
     computed_in: the cell that computes a claim, by the claim's id.
     """
     report, scheme = ledger.report, pages[0].scheme
-    sheet = SheetPlan(ledger=ledger, name=HOME)
-    sheet.wide("A", 38)
-    sheet.wide("BCDE", 17)
-    sheet.wide("F", 54)
+    sheet = SheetPlan(ledger=ledger, name=HOME, portrait=True, one_page=True)
+    sheet.widths = {"A": 36, "B": 15.5, "C": 15.5, "D": 10, "E": 14.5, "F": 10, "G": 48}
     sheet.put(A=Cell(title_of(ledger), "title"))
     sheet.say(
         f"After the report by {report.author} ({report.year}). Written by {PROGRAM}; {scheme}"
@@ -35,15 +44,15 @@ def overview(
     if audited is not None:
         sheet.say(audited.headline, style="headline", width=140)
     _results(sheet, pages)
+    _figure(sheet, sheets)
     if audited is not None:
         _failures(sheet, audited, computed_in)
-        sheet.page_break = sheet.row
     _heads(sheet, "Sheets")
     for page in sheets:
         link = Cell(page.name, "link", link=(page.name, "A1"))
         sheet.put(A=link, B=Cell(page.about))
     _how_to_read(sheet)
-    sheet.print_area = f"A1:F{sheet.row - 1}"
+    sheet.print_area = f"A1:G{sheet.row - 1}"
     return sheet
 
 
@@ -55,33 +64,40 @@ def title_of(ledger: Ledger) -> str:
 def _heads(sheet: SheetPlan, *heads: str, right: str = "") -> None:
     """Add the heads of a table, after a blank row."""
     sheet.row += 1
-    sheet.heads("ABCDEF", [*heads, *[""] * (6 - len(heads))], right)
+    sheet.heads("ABCDEFG", [*heads, *[""] * (7 - len(heads))], right)
 
 
 def _results(sheet: SheetPlan, pages: Sequence[CaseSheet]) -> None:
-    """Add the final depth of every case, the state of its run, and the counts of inputs."""
+    """Add the final depth of every case, the exact one, the state of its run, and counts of inputs.
+
+    The exact depth is the one at rest, without time steps.
+    """
     _heads(
-        sheet, "Results with the inputs in use", "Final depth [µm]", "The report prints",
-        "Depth over radius", "The report prints", "State of the run", right="BCDE",
+        sheet, "Results with the inputs in use", "Final depth [µm]", "Exact depth [µm]",
+        "It prints", "X/R of the sheet", "It prints", "State of the run", right="BCDEF",
     )  # fmt: skip
     for case in pages:
         key, s = f"overview.{case.part}", case.suffix
         claimed = case.is_reports and not case.coarse
         depth, ratio = f"depth-beta-{case.beta}", f"ratio-beta-{case.beta}"
-        sheet.rules += case.rules(f"F{sheet.row}")
+        sheet.rules += case.rules(f"G{sheet.row}")
         sheet.put(
             A=Cell(case.name, "link", link=(case.name, "A1")),
             B=formula(
                 f"{key}.depth_um", f"=depth_um{s}", "result", shown="0.0000", unit="um",
                 like=f"{case.part}.depth_um",
             ),
-            C=printed(sheet.ledger, depth, "um") if claimed else None,
-            D=formula(
+            C=formula(
+                f"{key}.exact_um", f"=X_rest{s}", "result", shown="0.0000", unit="um",
+                like=f"{case.part}.depth_um",
+            ),
+            D=printed(sheet.ledger, depth, "um") if claimed else None,
+            E=formula(
                 f"{key}.normalized_depth", f"=normalized_depth{s}", "result", shown="0.0000"
             ),
-            E=printed(sheet.ledger, ratio) if claimed else None,
+            F=printed(sheet.ledger, ratio) if claimed else None,
             # A sheet keeps its name if beta is changed, so the state begins with the beta in use.
-            F=formula(f"{key}.message", f'=label{s}&": "&message{s}', "state"),
+            G=formula(f"{key}.message", f'=label{s}&": "&message{s}', "state"),
         )  # fmt: skip
     for name, label in (
         ("inputs_changed", "Inputs in use that are not the report’s"),
@@ -92,13 +108,27 @@ def _results(sheet: SheetPlan, pages: Sequence[CaseSheet]) -> None:
         sheet.put(A=Cell(label, "link", link=("Inputs", "A1")), B=count)
 
 
+_FIGURE_ROWS = 16
+"""The rows that the chart covers."""
+
+
+def _figure(sheet: SheetPlan, sheets: Sequence[SheetPlan]) -> None:
+    """Add the chart of the sheet Figure 3, which also holds its curves."""
+    (chart,) = (page.chart for page in sheets if page.chart and page.name == "Figure 3")
+    height = int(_FIGURE_ROWS * ROW_HEIGHT * 96 / 72) - 5
+    sheet.row += 1
+    sheet.chart = replace(chart, at=f"A{sheet.row}", size=(1060, height))
+    sheet.row += _FIGURE_ROWS
+
+
 def _failures(sheet: SheetPlan, audited: AuditResult, computed_in: Mapping[str, Place]) -> None:
     """Add the claims that fail, each with its explanation, and the counts of all verdicts."""
     beside = "The report prints", "Inputs in use", "Why, with the report’s inputs"
     _heads(sheet, "What does not follow from the report", *beside, right="BC")
     for name in audited.failing:
         _failure(sheet, name, audited, computed_in)
-    _heads(sheet, "Where public sources differ", *beside, right="BC")
+    if audited.differing:
+        _heads(sheet, "Where public sources differ", *beside, right="BC")
     for name in audited.differing:
         _failure(sheet, name, audited, computed_in)
     _heads(sheet, "Verdicts of the audit", "Entries", "", "Live verdicts", "Cells", right="BDE")

@@ -3,6 +3,7 @@
 import os
 import re
 import signal
+import subprocess
 import zipfile
 from collections.abc import Mapping
 from io import BytesIO
@@ -11,7 +12,7 @@ from typing import Any
 
 import pytest
 from openpyxl import load_workbook
-from workbooks import rewritten
+from workbooks import rewritten, usable
 
 from replication.workbook import Workbook
 from spreadsheets import emit, safely
@@ -101,7 +102,7 @@ def test_the_sheets_are_sound_as_far_as_their_parts_tell(emitted: Any) -> None:
 def test_charts_store_numbers_and_are_described(emitted: Any) -> None:
     parts = parts_of(emitted.path.read_bytes())
     charts = [text for name, text in parts.items() if "charts/chart" in name]
-    assert len(charts) == 3
+    assert len(charts) == 4  # Figure 3 stands on Overview, too
     for text in charts:
         assert "<c:numCache>" in text
         assert text.count("<c:strRef>") == text.count("<c:ser>")  # the names of the curves
@@ -131,6 +132,17 @@ def test_what_is_not_available_is_stored_as_an_error_and_not_drawn() -> None:
 
 def test_the_same_workbook_gives_the_same_bytes(own: Workbook) -> None:
     assert own.to_bytes() == own.to_bytes()
+
+
+@pytest.mark.slow
+def test_the_reports_workbook_prints_on_21_pages(emitted: Any, tmp_path: Path) -> None:
+    """Each sheet on one, but the rows of two runs and the audit on two or three."""
+    assert usable("libreoffice").name
+    profile = f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}"
+    command = ["soffice", profile, "--headless", "--convert-to", "pdf", str(emitted.path)]
+    subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, timeout=120)
+    (printed,) = tmp_path.glob("*.pdf")
+    assert len(re.findall(rb"/Type\s*/Page\b", printed.read_bytes())) == 21
 
 
 # Protection
