@@ -232,7 +232,7 @@ def first_difference(audit: Results) -> int:
 
 
 def least_middle_density(audit: Results) -> Fraction:
-    """Return the least target density with which drag at the middle velocity gives 7.67 um."""
+    """Return the least target density with which drag at the middle velocity gives that depth."""
     claim = audit.ledger.claims["depth-beta-5"]
     printed = {name: audit.ledger.value(name) for name in claim.stated}
     function = audit.ledger.function(claim, scheme=Scheme.CENTERED)
@@ -326,7 +326,7 @@ def two_schemes(audit: Results) -> Finding:
     )  # fmt: skip
     middle_density = prints(
         "middle_density", "7848.4", least_middle_density(audit), "kg/m^3",
-        "density above which the drag at the middle velocity gives 7.67 um",
+        "density above which the drag at the middle velocity gives the printed depth, beta = 5",
     )  # fmt: skip
     number = first_difference(audit)
     rows = {scheme: sheet.run(case(audit, 5), scheme).rows[number] for scheme in Scheme}
