@@ -453,7 +453,7 @@ def _literal(value: float, sheet: str, within: tuple[str, ...], index: int) -> R
 
 
 def _cell(reference: Reference) -> Run:
-    sheet, (row_step, _), (column_step, _), (fixed_row, fixed_column, _, _) = reference
+    sheet, (row_step, _), (column_step, _), (fixed_row, fixed_column, _, _), _ = reference
 
     def run(e: "_Evaluation", row: int, column: int) -> object:
         return One(
