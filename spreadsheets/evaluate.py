@@ -120,7 +120,7 @@ class Reference(NamedTuple):
         return Area(self.sheet, top, left, bottom, right)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Shape:
     """A parsed formula, the same for all cells that it is filled into.
 
