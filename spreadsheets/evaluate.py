@@ -214,6 +214,26 @@ def shape_key(text: str, row: int, column: int) -> str:
     return _A1.sub(relative, text)
 
 
+def written(key: str, row: int, column: int) -> str:
+    """The formula of a shape as the cell at a row and a column shows it.
+
+    >>> written(shape_key("=A1+$B$2", 2, 1), 3, 1)
+    '=A2+$B$2'
+    """
+
+    def shown(match: re.Match[str]) -> str:
+        text = match[1]
+        bang = text.rfind("!") + 1
+        ends = []
+        for relative_row, r, relative_column, c in _END.findall(text[bang:]):
+            rows = f"{int(r) + row}" if relative_row else f"${r}"
+            columns = int(c) + column if relative_column else int(c)
+            ends.append(f"{'' if relative_column else '$'}{column_letters(columns)}{rows}")
+        return text[:bang] + (":".join(ends) if text.endswith(":") else ends[0])
+
+    return re.sub(f"{_OPEN}([^{_CLOSE}]*){_CLOSE}", shown, key)
+
+
 def _beyond(cell: str) -> bool:
     """Whether a text such as YLD1048577 or ZZZ1 is no cell: then it is a name."""
     match = _CELL.fullmatch(cell)

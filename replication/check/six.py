@@ -219,6 +219,7 @@ class Fit:
     centered: bool = False
     probe: Probe | None = None
     slack: float = EXACT
+    time_adds: bool = False
 
     @property
     def odd(self) -> list[Variant | None]:
@@ -266,6 +267,10 @@ def fit(table: Table) -> Fit:
     if k is None or not (depth.computed and speed.computed):
         return fit_numbers(table)
     fitted = _probed(table, Probe(table, k))
+    if "time" in table.lines:
+        assert fitted.probe is not None
+        read = fitted.probe.answers(table.place("time", k))
+        fitted = replace(fitted, time_adds=("time", -1) in read)
     if not any(math.isfinite(x) and x for x in fitted.six[2:5]):
         return fit_numbers(table)
     return fitted
@@ -436,16 +441,6 @@ def _time_step(table: Table, probe: Probe) -> float | None:
             steps.append(now - before)
     if not steps:
         return None
-    if (line.usual is not None) and ("time", -1) in probe.answers(probe.state["time", 0]):
-        base = probe.base["time", -1]
-        small = probe.value(probe.state["time", 0], {("time", -1): 1e-300}, {}, {})
-        return small if small == small and small else probe.value(
-            probe.state["time", 0], {}, {}, {}) - base  # fmt: skip
-    k = table.steps
-    first = next((table.number("time", j) for j in sorted(table.rows)), None)
-    last = table.number("time", k)
-    if first is not None and last is not None and len(steps) > 2:
-        return median(steps)
     return median(steps)
 
 
@@ -636,10 +631,49 @@ def numbers_with(
     if "time" in table.lines and table.lines["time"].computed:
         cell = probe.state["time", 0]
         value = probe.value(cell, {}, cells, literals)
-        read = ("time", -1) in probe.state and fitted.time is not None
-        result["t"] = value - base["time", -1] if read and not math.isclose(
-            value, base["time", -1]) else value  # fmt: skip
+        result["t"] = value - base["time", -1] if fitted.time_adds else value
     return result
+
+
+def parts_of(fitted: Fit, table: Table, place: Position, ratio: float | None) -> bool:
+    """Whether a formula beside the table is a part of the right force, up to a constant.
+
+    Such parts are powers of the velocity and the depth, the contact area D x - x², and the pressure
+    (G u² + H); `ratio` is the right G/H, `fitted.six.D` the right D, in the units of the columns.
+    """
+    assert fitted.probe is not None and fitted.force_of is not None
+    probe, (x, u) = fitted.probe, fitted.force_of
+
+    def force(depth: float, speed: float) -> float:
+        return probe.value(place, {x: depth, u: speed}, {}, {})
+
+    D = fitted.six.D if 0 < fitted.six.D < math.inf else 1.0
+    small, speed = 0.1 * D, abs(fitted.six.V) / 3
+    if ratio and ratio > 0:
+        speed = 0.5 / math.sqrt(ratio)
+    grid = _grid(force, small, speed)
+    if not all(math.isfinite(value) for row in grid for value in row):
+        return True
+    if not _is_polynomial(force, grid, small, speed):
+        return False
+    largest = max(abs(value) for row in grid for value in row)
+    terms = {(i, j) for i in range(3) for j in range(3) if abs(grid[i][j]) > 1e-8 * largest}
+    rows, columns = {i for i, _ in terms}, {j for _, j in terms}
+    if len(terms) != len(rows) * len(columns):
+        return False
+    if len(columns) > 1:
+        i = next(iter(rows))
+        wanted = {frozenset({1, 2}): -D / small, frozenset({0, 1}): None}.get(frozenset(columns), 0.0)
+        if wanted == 0.0:
+            return False
+        if wanted is not None and not math.isclose(grid[i][1] / grid[i][2], wanted, rel_tol=1e-6):
+            return False
+    if len(rows) > 1:
+        j = next(iter(columns))
+        if rows != {0, 2} or not ratio:
+            return rows == {0, 2}
+        return math.isclose(grid[2][j] / grid[0][j] / speed**2, ratio, rel_tol=1e-6)
+    return True
 
 
 # ---- numbers without formulas
