@@ -12,10 +12,9 @@ from openpyxl.utils.cell import get_column_letter
 
 from reference.units import written
 from replication import page
-from replication.check.diff import FOLLOWS, LAST, Comparison
 from replication.check.examination import KINDS, NO_FAULT, Difference, Examination
 from replication.check.table import address
-from replication.check.words import INPUTS, count, share, unit_text
+from replication.check.words import INPUTS, count, unit_text
 from replication.check.workbook import Check
 from replication.reading import printable
 from replication.text import aligned, quantity, with_unit
@@ -50,34 +49,6 @@ def check_record(check: Check) -> dict[str, Any]:
             for number in check.numbers
         ],
     }  # fmt: skip
-
-
-def diff_record(comparison: Comparison) -> dict[str, Any]:
-    """The document of `coldspray diff --json`; `expected` is what the first workbook holds."""
-    differences, calculations = comparison.differences, (comparison.before, comparison.after)
-    cells = {cell for d in differences if d.kind in ("formula", "value") for cell in d.cells}
-    last = {cell for d in differences if d.explanation.startswith(LAST) for cell in d.cells}
-    verdict = count(len(differences), "difference")
-    if follow := sum(d.explanation.startswith(FOLLOWS) for d in differences):
-        others = "others" if follow < len(differences) else "what is within the tolerance"
-        verdict += f", {follow:,} of which follow{'s' * (follow == 1)} from {others}"
-    verdict += f", in the contents of {count(len(cells), 'cell')}" if cells else ""
-    if last:
-        where = "" if last == cells else f" in {len(last):,} of them"
-        verdict += f"; only the last digits differ{where}: --relative 1e-14 takes these as equal"
-    equal = "Equal: every cell holds the same"
-    if any(c.unknown for c in calculations):
-        equal += ", but for formulas that are not computed"
-    verdict = f"{verdict if differences else equal}."
-    record = _record(calculations, verdict, differences, next(iter(differences), None))
-    for c in calculations:
-        computed = {place for place in c.formulas if c.book[place].value is None} - c.unknown
-        for cells, what in ((computed, "are computed here"), (c.unknown, "are not compared")):
-            if cells:
-                some = share(cells, c.formulas, "formula")
-                note = f"{c.book.path}: for {some} no value is stored: they {what}"
-                record["notes"].append(note)
-    return record
 
 
 def _record(

@@ -334,13 +334,13 @@ def run_check(options: argparse.Namespace) -> int:
     checked = check(options.file, mapping)
     record = show.check_record(checked)
     page = partial(show.html, record, checked.differences, checked.calculation)
-    return _put_found(options, record, page, KINDS)
+    return _put_found(options, record, show.text, page, partial(show.junit, kinds=KINDS))
 
 
 def run_diff(options: argparse.Namespace) -> int:
     """Compare two workbooks and print the differences; status 1 if there are any."""
     _check_files(options, options.first, options.second)
-    from replication.check import show
+    from replication.check import diff_show as show
     from replication.check.diff import KINDS, Tolerance, diff
 
     allowed = Tolerance(options.ulp, options.relative, options.digits)
@@ -348,15 +348,18 @@ def run_diff(options: argparse.Namespace) -> int:
     compared = diff(*both, values_only=options.values_only, allowed=allowed)
     record = show.diff_record(compared)
     page = partial(show.html, record, compared.differences, compared.after)
-    return _put_found(options, record, page, KINDS)
+    return _put_found(options, record, show.text, page, partial(show.junit, kinds=KINDS))
 
 
 def _check_files(options: argparse.Namespace, *workbooks: Path) -> None:
     """Raise OSError or ValueError if --html or --junit names a file that must not be written."""
-    from spreadsheets.safely import check_target
+    from spreadsheets.safely import check_own
 
-    files = [file for file in (options.html, options.junit) if file is not None]
-    written = [str(check_target(file)) for file in files]
+    marks = (
+        (options.html, b'<meta name="generator" content="coldspray '),
+        (options.junit, b'<testsuite name="coldspray '),
+    )
+    written = [str(check_own(file, mark)) for file, mark in marks if file is not None]
     read = {os.path.realpath(file) for file in workbooks}  # unlike resolve(), no error for a loop
     if len({*written, *read}) < len(written) + len(read):
         raise ValueError("--html and --junit each need a file of their own, not one that is read")
@@ -365,18 +368,18 @@ def _check_files(options: argparse.Namespace, *workbooks: Path) -> None:
 def _put_found(
     options: argparse.Namespace,
     record: dict[str, Any],
+    text: Callable[[Mapping[str, Any]], str],
     page: Callable[[], str],
-    kinds: Sequence[str],
+    junit: Callable[[Mapping[str, Any]], str],
 ) -> int:
     """Write the files asked for, print the record as JSON or text, and return the exit status."""
-    from replication.check import show
     from spreadsheets.safely import write_bytes
 
     if options.html is not None:
         write_bytes(options.html, page().encode())
     if options.junit is not None:
-        write_bytes(options.junit, show.junit(record, kinds).encode())
-    _put(options, record, lambda: show.text(record), quietly=True)
+        write_bytes(options.junit, junit(record).encode())
+    _put(options, record, lambda: text(record), quietly=True)
     return 0 if record["clean"] else 1
 
 
