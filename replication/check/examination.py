@@ -4,12 +4,12 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
 
+from replication.check import difference
 from replication.check.roles import Input
 from replication.check.six import Fit, Six
-from replication.check.table import Table, address, span
-from replication.check.words import COLUMNS, count
+from replication.check.table import Table
+from replication.check.words import COLUMNS
 from spreadsheets.foreign import Position, Value
 
 KINDS = (
@@ -26,39 +26,13 @@ def near(a: float | Fraction, b: float) -> bool:
 
 
 @dataclass(frozen=True)
-class Difference:
+class Difference(difference.Difference):
     """One way in which a workbook departs from the report's sheet.
 
-    `cells` lists every cell concerned, the one to look at first. `rank` sorts differences in the
-    order in which their cells are calculated.
+    `rank` sorts differences in the order in which their cells are calculated.
     """
 
-    kind: str
-    cells: tuple[Position, ...]
-    expected: Value | None
-    found: Value | None
-    explanation: str
-    rank: tuple[float, ...]
-
-    @property
-    def place(self) -> Position:
-        """The cell to look at."""
-        return self.cells[0]
-
-    def record(self) -> dict[str, Any]:
-        """Return the JSON entry, in which `cells` is a range and `count` the number of cells."""
-        sheets, rows, columns = map(set, zip(*self.cells, strict=True))
-        area = (max(rows) - min(rows) + 1) * (max(columns) - min(columns) + 1)
-        cells = span(cell[1:] for cell in self.cells)
-        if len(self.cells) != area or len(sheets) > 1:
-            cells = f"{address(self.place)} and {count(len(self.cells) - 1, 'cell')} more"
-        values = self.expected, self.found
-        expected, found = (str(x).upper() if isinstance(x, bool) else x for x in values)
-        return {
-            "sheet": self.place[0], "cell": address(self.place), "kind": self.kind,
-            "expected": expected, "found": found, "explanation": self.explanation,
-            "cells": cells, "count": len(self.cells),
-        }  # fmt: skip
+    rank: tuple[float, ...] = ()
 
 
 @dataclass

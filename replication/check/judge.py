@@ -90,6 +90,7 @@ def examine(
         before = inputs.powers
     exam.units = {role: inputs.powers.get(("column", role), 0.0) for role in table.lines}
     _other_model(exam, inputs, found, slack)
+    _take(exam, inputs)
     _typed_constants(exam, inputs, idle, broken)
     _broken_equations(exam, inputs, found, broken, slack)
     for item in changed:
@@ -97,7 +98,6 @@ def examine(
     if result is None:
         _not_mended(exam, inputs, whole, slack)
     _variants(exam)
-    _take(exam, inputs)
     _far_from_report(exam, inputs)
     _first_rows(exam, inputs, idle)
     odd_cells(exam, inputs)

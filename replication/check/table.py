@@ -14,6 +14,7 @@ from functools import cached_property
 from itertools import groupby, pairwise
 from statistics import median
 
+from replication.check.difference import span
 from replication.check.words import column_roles, digits_of, is_unit, power_of_ten, unit_in
 from spreadsheets.evaluate import Evaluator, Shape, column_letters
 from spreadsheets.foreign import Position
@@ -43,17 +44,6 @@ def address(place: Position, with_sheet: bool = False) -> str:
     plain = re.fullmatch(r"[A-Za-z_]\w*", sheet)
     quoted = sheet if plain else "'" + sheet.replace("'", "''") + "'"
     return f"{quoted}!{cell}" if with_sheet else cell
-
-
-def span(cells: Iterable[tuple[int, int]]) -> str:
-    """Return the address of the smallest area around some cells, given as (row, column).
-
-    >>> span([(9, 4), (8, 5)]), span([(1, 1)])
-    ('D8:E9', 'A1')
-    """
-    rows, columns = zip(*cells, strict=True)
-    corners = (("", end(rows), end(columns)) for end in (min, max))
-    return ":".join(dict.fromkeys(map(address, corners)))
 
 
 def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[list[Position]]:

@@ -333,7 +333,7 @@ def run_check(options: argparse.Namespace) -> int:
         mapping[name] = where.strip()
     checked = check(options.file, mapping)
     record = show.check_record(checked)
-    page = partial(show.html, record, checked.differences, checked.calculation)
+    page = partial(show.html, record, checked.differences, checked.evaluator)
     return _put_found(options, record, show.text, page, partial(show.junit, kinds=KINDS))
 
 
