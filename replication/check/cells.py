@@ -183,7 +183,7 @@ def _verdict(
     if expected is None or type(expected) is not float:
         return None
     same = _same(value, expected, line, exam)
-    if usual is None or not straight or not probe or exam.fitted.probe is None:
+    if usual is None or not straight or not probe or exam.fitted.probe is None or role == "time":
         if same:
             return None
         return "odd formula", f"{own} does not give what the rest of the table does", expected, value

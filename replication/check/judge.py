@@ -30,6 +30,7 @@ from replication.check.six import (
     Variant,
     end_of_row,
     fit,
+    is_bounded,
     run,
     start_of_row,
 )
@@ -110,7 +111,7 @@ def examine(
 def _trust_report(inputs: Inputs) -> None:
     """A number without a unit that is the report's in SI units is in SI units, though not surely."""
     for role, source in inputs.cells.items():
-        item: Item = ("cell", source.place)
+        item: Item = source.item
         if item not in inputs.stated and any(near(source.value, x) for x in report_inputs().get(role, ())):
             inputs.stated[item] = False
 
@@ -128,14 +129,12 @@ def _known_families(inputs: Inputs) -> int:
             source = inputs.cells.get(role) or inputs.derived.get(role)
             if source is None:
                 continue
-            power = inputs.powers.get(("cell", source.place), 0.0)
             values = [abs(math.log10(abs(source.value) / x)) for x in report_inputs().get(role, ()) if source.value]
             is_report = any(abs(v - round(v)) < 1e-9 for v in values)
-            label, unit = inputs.labels.get(source.place or ("", 0, 0), ("", None))
+            label, unit = inputs.labels.get(source.cell or ("", 0, 0), (source.name, None))
             named = role in input_roles(label, unit) if label else False
             if named or is_report or inputs.how.get(role) == "--map":
                 known.add(family)
-            _ = power
     return len(known)
 
 
@@ -314,7 +313,7 @@ def _broken_equations(
 
     def derived(name: str, role: str, from_what: str) -> None:
         source = inputs.derived.get(role) or inputs.cells.get(role)
-        if source is None or source.place is None or source.place in accused:
+        if source is None or source.cell is None or source.cell in accused:
             return
         slip, times = broken[name], ratio(name)
         expected = source.value / times
@@ -533,14 +532,14 @@ def _cell_for(
     needed = [n for n in "GHDcetV" if abs(source.powers.get(n, 0.0)) > 0.02]
     for role in FAMILIES[family]:
         known = inputs.cells.get(role)
-        if known is None or known.place is None or inputs.how.get(role) == "unread":
+        if known is None or known.cell is None or inputs.how.get(role) == "unread":
             continue
         lacking = [n for n in needed if abs(known.powers.get(n, 0.0)) < 0.02]
         if lacking and (family != "inertia" and (family != "size" or _digits_alike(source.value, known.value))):
-            return role, known.place
+            return role, known.place  # type: ignore[return-value]
     for role in FAMILIES[family]:
         known = inputs.cells.get(role)
-        if known is not None and known.place is not None and inputs.how.get(role) == "unread":
+        if known is not None and known.cell is not None and inputs.how.get(role) == "unread":
             others = [r for r in FAMILIES[family] if r in inputs.cells and r != role]
             if family in ("target", "step", "speed") or _digits_alike(source.value, known.value) or not others:
                 if _digits_alike(source.value, known.value) or family in ("target", "step", "speed"):
@@ -575,19 +574,11 @@ def _take(exam: Examination, inputs: Inputs) -> None:
         source = inputs.cells.get(role) or inputs.derived.get(role)
         if source is None:
             continue
-        label, unit = inputs.labels.get(source.place or ("", 0, 0), ("", None))
-        power = inputs.powers.get(("cell", source.place), 0.0)
-        how = inputs.how.get(role, "response")
-        exam.inputs[role] = Input(role, _si(source.value, power), source.place, how, label, unit, source.value)
+        label, unit = inputs.labels.get(source.cell or ("", 0, 0), (source.name, None))
+        power = inputs.powers.get(source.item, 0.0)
+        how = "formulas" if source.cell is None else inputs.how.get(role, "response")
+        exam.inputs[role] = Input(role, _si(source.value, power), source.cell, how, label, unit, source.value)
     six = _six_si(exam)
-    for source in inputs.sources:
-        if source.literal is None or source.family is None:
-            continue
-        role = FAMILIES[source.family][0]
-        if not exam.inputs.keys() & set(FAMILIES[source.family]):
-            value = {"step": six.c, "speed": six.V, "size": six.D / 2}.get(source.family)
-            if value is not None and math.isfinite(value):
-                exam.inputs[role] = Input(role, value, None, "formulas", "", None, source.value)
     known = {"step": six.c, "velocity": six.V, "radius": six.D / 2}
     for role, value in known.items():
         if role not in exam.inputs and not (role == "radius" and "diameter" in exam.inputs):
@@ -764,7 +755,7 @@ def _first_response(exam: Examination, place: Position, step: Source | None, vel
     cone = evaluator.cone([place], ())
     value = evaluator.values[place]
     for role, source in (("step", step), ("velocity", velocity)):
-        if source is None or source.place is None or not source.powers:
+        if source is None or source.cell is None or not source.powers:
             continue
         now = evaluator.value(place, {source.place: source.value * 1.01}, within=cone)
         if type(now) is float and type(value) is float and not math.isclose(now / value, 1.01, rel_tol=1e-9):
@@ -792,7 +783,7 @@ def _first_velocity(exam: Examination, inputs: Inputs, idle: Sequence[Position])
     if place in evaluator.formulas:
         return
     known = inputs.cells.get("velocity")
-    if known is not None and known.place != place and known.place is not None:
+    if known is not None and known.cell is not None and known.cell != place:
         same = "; it gives the right value here" if type(first) is float and _digits_alike(first, known.value) else ""
         text = f"the first velocity is typed, where {address(known.place, True)} should be read{same}"
         exam.add("typed number", [place], known.value, text)
@@ -829,6 +820,12 @@ def _stop(exam: Examination, idle: Sequence[Position]) -> None:
         exam.ends = False
         return
     exam.right_depth, exam.steps_right = rows[-1].depth, len(rows)
+    if exam.right_depth > six.D / 2 and not is_bounded(exam.fitted, table):
+        cells = exam.cells(exam.fitted.brakes, 1)
+        if not any(d.place in cells for d in exam.differences if d.kind != "stale value"):
+            beyond = VARIANTS["area beyond the radius"]
+            deep = [p for p in cells if (x := table.number("depth", table.places[p][1])) and x > exam.fitted.six.D / 2]
+            exam.add("other scheme", deep or cells, None, f"{beyond.name}: {beyond.says}")
     steps = table.steps
     if not table.whole or steps == exam.steps_right:
         exam.ends = table.whole
@@ -854,7 +851,7 @@ def _stop(exam: Examination, idle: Sequence[Position]) -> None:
         len(run(six._replace(H=six.H * x / y), stop)) == steps
         for x in report_inputs()["resistance"] for y in report_inputs()["resistance"] if x != y
     )  # fmt: skip
-    place = table.place(column, last)
+    place = table.place(column, steps)
     if is_report and not prepared and 2 * steps >= exam.steps_right and exam.inputs.get("velocity") is not None and _all_report(exam):
         exam.add("other scheme", [place], None, f"other stop: {text}")
         exam.ends = True

@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
-from replication.check.examination import Difference, Examination, near
+from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.judge import report_inputs
 from replication.check.roles import label_of
 from replication.check.table import address
@@ -101,7 +101,8 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
         if any(d.kind == "other scheme" and "other stop" in d.explanation for d in exam.differences):
             continue
         read = {(a.sheet, a.top, a.left) for a in evaluator.areas(result.place) if a.cells == 1}
-        if read & wrong:
+        accused = {d.place for d in exam.differences if d.kind not in NO_FAULT}
+        if read & (wrong | accused):
             wrong.add(result.place)
             continue
         label, unit, sure = label_of(result.place, evaluator)
@@ -185,7 +186,9 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
         case = _case(exam)
         if case is None:
             continue
-        if exam.ends and (depth := exam.final_depth) is not None:
+        assert exam.intended is not None
+        whole = math.isclose(exam.intended.c, report_inputs()["step"][0], rel_tol=1e-6)
+        if exam.ends and whole and (depth := exam.final_depth) is not None:
             place = exam.table.place("depth", exam.table.steps)
             yield _judged(f"depth-{case}", place, Fraction(depth), False)
         for place, label, unit in _labelled(evaluator):

@@ -54,6 +54,21 @@ class Source:
     computed: bool = False
 
     @property
+    def cell(self) -> Position | None:
+        """The cell of the number itself; None for one that is typed into a formula."""
+        return self.place if self.literal is None else None
+
+    @property
+    def item(self) -> Item:
+        """What its unit is a unit of."""
+        return ("number", self.literal) if self.literal is not None else ("cell", self.place)
+
+    @property
+    def name(self) -> str:
+        """The defined name that stands for the number, if any."""
+        return str(self.literal[0]) if self.literal is not None and len(self.literal) == 2 else ""
+
+    @property
     def family(self) -> str | None:
         """What it may be, by its response."""
         G, H, D, c, e, t, V = (self.powers.get(n, 0.0) for n in "GHDcetV")
@@ -114,7 +129,7 @@ class Inputs:
         source = self.cells.get(role) or self.derived.get(role)
         if source is None:
             return None
-        return source.value * 10.0 ** self.powers.get(("cell", source.place), 0.0)
+        return source.value * 10.0 ** self.powers.get(source.item, 0.0)
 
 
 # ---- labels
@@ -295,16 +310,18 @@ def recognize(
     evaluator = table.evaluator
     inputs = Inputs(sources(table, fitted))
     roles_by_label: dict[Position, frozenset[str]] = {}
+    roles_by_label: dict[Position, frozenset[str]] = {}
     for source in inputs.sources:
         if source.place is not None and source.literal is None:
             _label(source.place, evaluator, names, inputs, roles_by_label)
     typed = [s for s in inputs.sources if s.literal is None and not s.computed]
+    numbers = [s for s in inputs.sources if s.literal is not None]
     formulas = [s for s in inputs.sources if s.literal is None and s.computed]
     for family, members in FAMILIES.items():
-        some = [s for s in typed if s.family == family]
+        some = [s for s in typed if s.family == family] or _one_of_each(numbers, family)
         made = [s for s in formulas if s.family == family]
         _assign(family, members, some, made, inputs, roles_by_label, fitted, evaluator)
-    taken = {s.place for s in (*inputs.cells.values(), *inputs.derived.values())}
+    taken = {s.cell for s in (*inputs.cells.values(), *inputs.derived.values())}
     for source in (*typed, *formulas):  # by label alone: what its formula does is to be judged
         roles = roles_by_label.get(source.place or ("", 0, 0), frozenset())
         if source.place not in taken and len(roles) == 1 and not _is_factor(source):
@@ -322,7 +339,7 @@ def recognize(
         if len(roles) == 1:
             (role,) = roles
             known = inputs.cells.get(role)
-            if known is None and role not in inputs.derived:
+            if (known is None or known.cell is None) and role not in inputs.derived:
                 inputs.cells[role] = Source(place, None, value, {}, place in evaluator.formulas)
                 inputs.how[role] = "unread"
     for role, place in given.items():
@@ -334,6 +351,12 @@ def recognize(
         inputs.cells[role] = source
         inputs.how[role] = "--map"
     return inputs
+
+
+def _one_of_each(numbers: Sequence[Source], family: str) -> list[Source]:
+    """The typed numbers of a family, where no cell holds any: each value once."""
+    some = {s.value: s for s in numbers if s.family == family}
+    return list(some.values()) if len(some) <= 2 else []
 
 
 def _is_factor(source: Source) -> bool:
@@ -366,7 +389,9 @@ def _assign(
     """Give the cells of a family their roles."""
 
     def own(source: Source) -> frozenset[str]:
-        return roles.get(source.place or ("", 0, 0), frozenset()) & set(members)
+        if source.name:
+            return input_roles(source.name, None) & set(members)
+        return roles.get(source.cell or ("", 0, 0), frozenset()) & set(members)
 
     def put(where: dict[str, Source], role: str, source: Source) -> None:
         if role not in where:
@@ -502,7 +527,7 @@ def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
         found.append(Equation(name, {i: n for i, n in total.items() if n}, math.fsum(rest)))  # type: ignore[arg-type]
 
     def unit(source: Source) -> Item:
-        return "cell", source.place
+        return source.item
 
     def minus(value: float | None) -> float | None:
         return None if value is None else -value
@@ -598,8 +623,8 @@ def state_units(table: Table, inputs: Inputs) -> None:
             inputs.powers[item] = math.log10(float(to_si(line.unit)))
             inputs.stated[item] = line.sure
     for role, source in (*inputs.cells.items(), *inputs.derived.items()):
-        item = ("cell", source.place)
-        _, unit = inputs.labels.get(source.place or ("", 0, 0), ("", None))
+        item = source.item
+        _, unit = inputs.labels.get(source.cell or ("", 0, 0), ("", None))
         if unit and same_dimension(unit, INPUTS[role]) and INPUTS[role] != "1":
             inputs.powers[item] = math.log10(float(to_si(unit)))
         else:

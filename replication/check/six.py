@@ -320,7 +320,7 @@ def _probed(table: Table, probe: Probe) -> Fit:
             ways["deceleration"] = None
             return Fit(Six(math.nan, math.nan, math.nan, c, e, _first_speed(table)),
                        _time_step(table, probe), sign, ways, brakes, start, probe=probe)  # fmt: skip
-    numbers, way, centered = _force(force(x, u or start, {}, {}), table, sign * e)
+    numbers, way, centered = _force(force(x, u or start, {}, {}), table, e)
     if way is REPORT["deceleration"]:
         if x == ("depth", -1) and ("depth", 0) in probe.state:
             way = VARIANTS["force at the row before"]
@@ -414,14 +414,18 @@ def _linear_fall(
     probe: Probe, place: Position, start: State, brake: State, read: Sequence[State], sign: float
 ) -> tuple[float, Variant | None]:
     """The constant e by which the velocity falls, if it falls as in the report."""
-    u, a = probe.base[start], probe.base[brake]
-    value = probe.value(place, {}, {}, {})
-    own = [s for s in read if s.__class__ and s[0].startswith("velocity")]
+    own = [s for s in read if s[0].startswith("velocity")]
     if len(own) != 1 or len(read) != 2:
         return math.nan, None
     same = own[0] == start or {own[0], start} == {("velocity_initial", 0), ("velocity_final", -1)}
-    u = probe.base[own[0]]
-    e = (u - probe.value(place, {own[0]: u, brake: a}, {}, {})) / a * sign
+    u, a = probe.base[own[0]], probe.base[brake]
+    value = probe.value(place, {}, {}, {})
+    for _ in range(60):  # a deceleration that takes a good part of the velocity
+        fall = abs(u - probe.value(place, {brake: a}, {}, {}))
+        if not 0 < fall < math.inf or 0.1 * abs(u) < fall < 10 * abs(u):
+            break
+        a *= abs(u) / fall
+    e = (u - probe.value(place, {brake: a}, {}, {})) / a * sign
     slope = (probe.value(place, {own[0]: 2 * u}, {}, {}) - value) / u
     twice = (u - probe.value(place, {brake: 2 * a}, {}, {})) / (2 * a) * sign
     if not same or not math.isclose(slope, 1.0, rel_tol=1e-9):
@@ -485,14 +489,6 @@ def _force(force: Force, table: Table, e: float) -> tuple[tuple[float, float, fl
         return nan, None, False
     if _is_polynomial(force, grid, small, speed):
         numbers, way = _named_force(grid, small, speed)
-        if way is REPORT["deceleration"] and table.lines["depth"].values:
-            deepest = max(table.lines["depth"].values.values())
-            if deepest > numbers[2] / 2 * (1 + 1e-9):
-                six = Six(*numbers, 1.0, 1.0, 1.0)
-                beyond = 0.75 * numbers[2]
-                wanted = six.deceleration(beyond, speed)
-                if not math.isclose(force(beyond, speed), wanted, rel_tol=1e-7):
-                    way = VARIANTS["area beyond the radius"]
         return numbers, way, False
     if math.isfinite(e):
         D = D if D > 0 and math.isfinite(D) else 40 * small
@@ -607,7 +603,8 @@ def numbers_with(
     falls = probe.state[end]
     if fitted.brakes == "deceleration":
         u = base[start]
-        result["e"] = u - probe.value(falls, {}, cells, literals)
+        strong = {brake: u / fitted.six.e} if fitted.six.e and math.isfinite(fitted.six.e) else {}
+        result["e"] = u - probe.value(falls, strong, cells, literals)
         brakes = probe.state[brake]
     else:
         brakes = falls
@@ -676,6 +673,20 @@ def parts_of(fitted: Fit, table: Table, place: Position, ratio: float | None) ->
     return True
 
 
+def is_bounded(fitted: Fit, table: Table) -> bool:
+    """Whether the contact area stays pi R² beyond the depth R, as in the report."""
+    if fitted.probe is None or fitted.force_of is None or not 0 < fitted.six.D < math.inf:
+        return True
+    depth, speed = 0.75 * fitted.six.D, abs(fitted.six.V) / 3
+    (x, u), probe, falls = fitted.force_of, fitted.probe, fitted.probe.state[end_of_row(table)]
+    single = fitted.brakes == "deceleration"
+    place = probe.state["deceleration", 0] if single else falls
+    value = probe.value(place, {x: depth, u: speed}, {}, {})
+    a = fitted.sign * value if single else (speed - value) / fitted.six.e
+    wanted = fitted.six.deceleration(depth, speed)
+    return math.isclose(a, wanted, rel_tol=0.05 if fitted.centered else 1e-6)
+
+
 # ---- numbers without formulas
 
 
@@ -706,7 +717,10 @@ def fit_numbers(table: Table) -> Fit:
     e = _between(falls, table, "velocity") if falls else c
     sign = -1.0 if forces and median(a for *_, a in forces) < 0 else 1.0
     divisor = sign if "deceleration" in table.lines else e
-    G, H, D = _least_squares([(x, u, a / divisor) for x, u, a in forces])
+    G = H = D = math.nan
+    slack = _slack(table)
+    if len(forces) * -math.log10(slack) > 20:  # few rows of few digits do not tell
+        G, H, D = _least_squares([(x, u, a / divisor) for x, u, a in forces])
     ways: dict[str, Variant | None] = {role: REPORT[role] for role in ("depth", "deceleration", "velocity_final")}
     six = Six(G, H, D, c, sign * e if falls else c, _first_speed(table))
     step = None
@@ -716,7 +730,7 @@ def fit_numbers(table: Table) -> Fit:
         if len(known) > 1 and known[-1][1] != known[0][1]:
             step = (known[-1][0] - known[0][0]) / (known[-1][1] - known[0][1])
     brakes = "deceleration" if "deceleration" in table.lines else end[0]
-    return Fit(six, step, sign, ways, brakes, start, probe=None, slack=_slack(table))
+    return Fit(six, step, sign, ways, brakes, start, probe=None, slack=slack)
 
 
 def _slack(table: Table) -> float:

@@ -576,14 +576,24 @@ def _completed(
     shown = sorted(set(depth.values) | set(speed.values))
     first, last = min(depth.values), max(depth.values)
     indices = [i for i in shown if first <= i <= last]
-    if both is not None and start is not None and max(speed.values) > last:
-        indices += []
+    while len(indices) > LEAST and _is_below(indices, roles):
+        indices.pop()
     zero, whole = _first_row(depth, speed, role, indices, c)
     rows = {k: index for k, index in enumerate(indices, zero)}
     if max(rows) < 1:
         return None
     helpers = tuple(o for o in others if o not in roles.values())
     return Table(evaluator, depth.sheet, depth.across, roles, helpers, rows, whole)
+
+
+def _is_below(indices: Sequence[int], roles: Mapping[str, Line]) -> bool:
+    """Whether the last row stands apart from the table: a result typed below it."""
+    last, before = indices[-1], indices[-2]
+    if last - before == 1:
+        return False
+    lines = [line for line in roles.values() if last in line.values]
+    formulas = sum(line.place(last) in line.evaluator.formulas for line in lines)
+    return len(lines) < min(3, len(roles)) or (formulas == 0 and any(o.computed for o in lines))
 
 
 def _first_row(
