@@ -147,12 +147,15 @@ def _verdict(
     straight = table.rows[k] - table.rows.get(k - 1, table.rows[k] - 1) == 1
     expected = predicted(exam, role, k) if role else None
     instead = ""
+    applies = False
     if usual is not None and straight:
         shown = evaluator.value(place, {}, shape=usual)
         exact = type(shown) is float and (
             expected is None or math.isclose(shown, expected, rel_tol=1e-6, abs_tol=_size(line))
         )
-        expected = shown if exact or role is None else expected  # type: ignore[assignment]
+        applies = type(shown) is float
+        if type(shown) is float and (exact or role is None):
+            expected = shown
         instead = written(usual.key, place[1], place[2])
     would = f" where {instead[:200]} would stand" if instead else ""
     if value is None and shape is None:
@@ -163,6 +166,8 @@ def _verdict(
         if line.computed and usual is not None:
             if type(value) is float:
                 same = _same(value, expected, line, exam)
+                if role is None and same and k == 1:
+                    return None
                 text = f"a number is typed{would}" + ("; it gives the right value here" if same else "")
                 return "typed number", text, expected, value
             return "typed number", f"a text is typed{would}", expected, quoted(value)
@@ -183,7 +188,7 @@ def _verdict(
     if expected is None or type(expected) is not float:
         return None
     same = _same(value, expected, line, exam)
-    if usual is None or not straight or not probe or exam.fitted.probe is None or role == "time":
+    if usual is None or not applies or not probe or exam.fitted.probe is None or role == "time":
         if same:
             return None
         return "odd formula", f"{own} does not give what the rest of the table does", expected, value

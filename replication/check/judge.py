@@ -69,10 +69,9 @@ def report_inputs() -> dict[str, tuple[float, ...]]:
 
 def examine(
     table: Table, names: Mapping[Position, str], given: Mapping[str, Position],
-    idle: Iterable[Position],
+    idle: Sequence[Position], typed: Sequence[Position],
 ) -> Examination:  # fmt: skip
-    """Judge a table. Raises AnotherModel if it does not follow the report's."""
-    idle = list(idle)
+    """Judge a table. `idle` are numbers that no table reads, `typed` those beside it. Raises AnotherModel if it does not follow the report's."""
     exam = Examination(table, fit(table))
     inputs = recognize(table, exam.fitted, given, names, idle)
     exam.read = frozenset(s.place for s in inputs.sources if s.place and s.literal is None)
@@ -92,7 +91,8 @@ def examine(
     exam.units = {role: inputs.powers.get(("column", role), 0.0) for role in table.lines}
     _other_model(exam, inputs, found, slack)
     _take(exam, inputs)
-    _typed_constants(exam, inputs, idle, broken)
+    beside = [p for p in typed if p not in exam.read]
+    _typed_constants(exam, inputs, beside, broken)
     _broken_equations(exam, inputs, found, broken, slack)
     for item in changed:
         _unit(exam, inputs, item, before.get(item, 0.0), inputs.powers.get(item, 0.0))
@@ -726,8 +726,8 @@ def _first_rows(exam: Examination, inputs: Inputs, idle: Sequence[Position]) -> 
     slack = 1e-9 + (0.0 if line.computed else 2 * exam.fitted.slack + 2 * line.rounding(value) / abs(wanted))
     ratio = value / wanted
     if abs(ratio - 1) <= slack:
-        if shape is None and line.computed and step is not None:
-            text = f"the first depth is typed, though it rests on {address(step.place or place, True)}; it gives the right value here"
+        if shape is None and line.computed and step is not None and step.cell is not None:
+            text = f"the first depth is typed, though it rests on {address(step.cell, True)}; it gives the right value here"
             exam.add("typed number", [place], wanted, text)
         elif shape is not None:
             _first_response(exam, place, step, velocity)

@@ -667,35 +667,46 @@ def _solve(
         for eq in left:
             for item in eq.terms:
                 counts[item] = counts.get(item, 0) + 1
-        own = next(
-            ((eq, i) for eq in left for i in eq.terms if i in free and counts[i] == 1), None
-        )
+        private = ((eq, [i for i in eq.terms if i in free and counts[i] == 1]) for eq in left)
+        own = next(((eq, alone) for eq, alone in private if alone), None)
         if own is None or all(abs(eq.residual(powers)) < slack for eq in left):
             break
         left.remove(own[0])
         later.append(own)
     for most in range(6):
         if (result := _changed(left, dict(powers), list(free), most, slack)) is not None:
-            for eq, item in reversed(later):
+            for eq, alone in reversed(later):
                 rest = eq.residual(result)
-                if abs(rest) >= slack:
-                    power = -rest / eq.terms[item]
-                    near = round(power)
-                    if abs(power - near) > slack + 2 * CLOSE and not any(
-                        abs((power - u) - round(power - u)) < 1e-6 for u in _UNUSUAL
-                    ):
-                        return None
-                    result[item] = result.get(item, 0.0) + (near if abs(power - near) <= slack + 2 * CLOSE else power)
+                if abs(rest) < slack:
+                    continue
+                for item in alone:
+                    power = _unit_power(-rest / eq.terms[item], slack)
+                    if power is not None:
+                        result[item] = result.get(item, 0.0) + power
+                        break
+                else:
+                    return None
             return result
     return None
+
+
+def _unit_power(power: float, slack: float) -> float | None:
+    """The power of ten between two units, or that of an unusual unit; None if it is neither."""
+    near = round(power)
+    if abs(power - near) <= slack + 2 * CLOSE:
+        return float(near)
+    unusual = any(abs((power - u) - round(power - u)) < 1e-6 for u in _UNUSUAL)
+    return power if unusual else None
 
 
 def _changed(
     left: Sequence[Equation], powers: dict[Item, float], free: list[Item], most: int, slack: float
 ) -> dict[Item, float] | None:
-    broken = next((eq for eq in left if abs(eq.residual(powers)) >= slack), None)
-    if broken is None:
+    wrong = [eq for eq in left if abs(eq.residual(powers)) >= slack]
+    if not wrong:
         return powers
+    # An equation with a single free unit leaves no choice, so that it comes first.
+    broken = min(wrong, key=lambda eq: sum(item in eq.terms for item in free))
     if most == 0:
         return None
     rest = broken.residual(powers)

@@ -152,12 +152,14 @@ class Probe:
             (role, d): table.place(role, k + d)
             for role in table.lines
             for d in (-1, 0, 1)
-            if k + d in table.rows
+            if table.number(role, k + d) is not None
         }
         self.base: dict[State, float] = {}
-        for (role, d), _ in self.state.items():
+        for role, d in self.state:
             value = table.number(role, k + d)
-            self.base[role, d] = 1.0 if value in (None, 0.0) else value
+            later = table.number(role, k + d + 1)
+            # A first depth of zero would hide what depends on it.
+            self.base[role, d] = value or (later / 2 if later else 1.0)
         near = {table.rows[k + d] for d in (-1, 0, 1) if k + d in table.rows}
         self.stop = set(table.places) | {
             line.place(i) for line in table.helpers for i in line.values if i not in near

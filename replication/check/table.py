@@ -135,6 +135,12 @@ class Line:
         return sum(b > a for a, b in pairwise(ordered)) > 0.8 * (len(ordered) - 1)
 
     @cached_property
+    def falls(self) -> bool:
+        """Whether few numbers are larger than those before them."""
+        ordered = [self.values[index] for index in sorted(self.values)]
+        return sum(b > a for a, b in pairwise(ordered)) < 0.2 * (len(ordered) - 1)
+
+    @cached_property
     def positive(self) -> bool:
         """Whether most numbers are above zero."""
         return sum(value > 0 for value in self.values.values()) > 0.8 * len(self.values)
@@ -450,7 +456,7 @@ def _may_be(depth: Line, speed: Line) -> bool:
     The depth is computed from the velocity, or both only show a table that stands elsewhere.
     """
     if not (depth.computed and speed.computed):
-        return True
+        return speed.falls
     return _reads(depth, speed) or not _reads(depth, depth)
 
 
@@ -575,25 +581,49 @@ def _completed(
         roles["time"] = time
     shown = sorted(set(depth.values) | set(speed.values))
     first, last = min(depth.values), max(depth.values)
-    indices = [i for i in shown if first <= i <= last]
-    while len(indices) > LEAST and _is_below(indices, roles):
-        indices.pop()
+    indices = _of_table([i for i in shown if first <= i <= last], depth, speed)
+    if len(indices) < LEAST:
+        return None
+    roles = {name: _within(line, indices) for name, line in roles.items()}
+    depth, speed = roles["depth"], roles[role]
     zero, whole = _first_row(depth, speed, role, indices, c)
     rows = {k: index for k, index in enumerate(indices, zero)}
     if max(rows) < 1:
         return None
-    helpers = tuple(o for o in others if o not in roles.values())
+    numbers = {line.number for line in roles.values()}
+    helpers = tuple(_within(o, indices) for o in others if o.number not in numbers)
     return Table(evaluator, depth.sheet, depth.across, roles, helpers, rows, whole)
 
 
-def _is_below(indices: Sequence[int], roles: Mapping[str, Line]) -> bool:
-    """Whether the last row stands apart from the table: a result typed below it."""
-    last, before = indices[-1], indices[-2]
-    if last - before == 1:
-        return False
-    lines = [line for line in roles.values() if last in line.values]
-    formulas = sum(line.place(last) in line.evaluator.formulas for line in lines)
-    return len(lines) < min(3, len(roles)) or (formulas == 0 and any(o.computed for o in lines))
+def _within(line: Line, indices: Sequence[int]) -> Line:
+    """The part of a line that belongs to some rows."""
+    return replace(line, values={i: v for i, v in line.values.items() if indices[0] <= i <= indices[-1]})
+
+
+def _of_table(indices: list[int], depth: Line, speed: Line) -> list[int]:
+    """The rows of a table, without numbers that stand above or below it.
+
+    The last row has a usual formula. Before the first usual formula of the depths at most two rows
+    belong to the table, the impact and the first step. Without formulas, long gaps end it.
+    """
+    formulas = depth.evaluator.formulas
+
+    def usual(line: Line, i: int) -> bool:
+        return line.usual is not None and formulas.get(line.place(i)) is line.usual
+
+    if depth.usual is not None and depth.computed:
+        first = next(n for n, i in enumerate(indices) if usual(depth, i))
+        last = max(n for n, i in enumerate(indices) if usual(depth, i) or usual(speed, i))
+        start = first
+        while start and first - start < 2 and indices[start] - indices[start - 1] <= 2:
+            start -= 1
+        return indices[start : last + 1]
+    blocks: list[list[int]] = [[]]
+    for i in indices:
+        if blocks[-1] and i - blocks[-1][-1] > 2:
+            blocks.append([])
+        blocks[-1].append(i)
+    return max(blocks, key=len)
 
 
 def _first_row(

@@ -93,7 +93,7 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
     others: list[str] = []
     for table in found:
         try:
-            exams.append(examine(table, names, cells, _beside(table, idle, found)))
+            exams.append(examine(table, names, cells, _beside(table, idle, found), _typed_numbers(table, found)))
         except AnotherModel as error:
             others.append(str(error))
     if not exams:
@@ -246,6 +246,19 @@ def _beside(table: Table, idle: Sequence[Position], found: Sequence[Table]) -> l
     if len(found) > 1:
         own = [p for p in own if p[0] == table.sheet]
     return own[:500]
+
+
+def _typed_numbers(table: Table, found: Sequence[Table]) -> list[Position]:
+    """The typed numbers on the sheet of a table that stand in no table."""
+    lined = {p for other in found for p in other.places}
+    for other in found:
+        lined |= {line.place(i) for line in other.helpers for i in line.values}
+    evaluator = table.evaluator
+    return [
+        p for p, value in evaluator.values.items()
+        if type(value) is float and p[0] == table.sheet and p not in lined
+        and p not in evaluator.formulas
+    ][:500]  # fmt: skip
 
 
 # ---- the user's --map, and the message where no table is found
