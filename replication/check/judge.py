@@ -119,9 +119,9 @@ def _trust_report(inputs: Inputs) -> None:
 # ---- another model, and formulas that are not the report's
 
 
-def _known_families(inputs: Inputs) -> int:
-    """How many kinds of inputs are known by their label, or hold the report's value."""
-    known = set()
+def _known_families(inputs: Inputs) -> tuple[int, int]:
+    """How many kinds of inputs are known by their label or value, and how many hold the report's."""
+    known, report = set(), set()
     for family, members in FAMILIES.items():
         if family in ("step", "speed"):
             continue
@@ -135,7 +135,9 @@ def _known_families(inputs: Inputs) -> int:
             named = role in input_roles(label, unit) if label else False
             if named or is_report or inputs.how.get(role) == "--map":
                 known.add(family)
-    return len(known)
+            if is_report:
+                report.add(family)
+    return len(known), len(report)
 
 
 def _other_model(exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float) -> None:
@@ -143,7 +145,7 @@ def _other_model(exam: Examination, inputs: Inputs, found: Sequence[Equation], s
     fitted, table = exam.fitted, exam.table
     odd = [way for way in fitted.ways.values() if way is None or way.name != "the report's"]
     if not odd:
-        if fitted.probe is None and not _rows_agree(exam):
+        if fitted.probe is None and not (_rows_agree(exam) and _steps_agree(found, inputs, slack)):
             raise AnotherModel(_sentence(exam, "deceleration"))
         return
     hold = {eq.name for eq in found if abs(eq.residual(inputs.powers)) < slack}
@@ -151,7 +153,8 @@ def _other_model(exam: Examination, inputs: Inputs, found: Sequence[Equation], s
     way = fitted.ways.get("deceleration", REPORT["deceleration"])
     if way is not None and way.name in ("the report's", "centered") and (strong >= 1 or way.name == "the report's"):
         return
-    if strong >= 2 or _known_families(inputs) >= _LEAST_KNOWN:
+    known, report = _known_families(inputs)
+    if strong >= 2 or (known >= _LEAST_KNOWN and (strong or report >= 2)):
         return
     wrong = next((r for r in ("deceleration", "velocity_final", "depth") if r in fitted.ways and (
         fitted.ways[r] is None or fitted.ways[r] is not REPORT[r])), "deceleration")  # fmt: skip
@@ -178,6 +181,12 @@ def _sentence(exam: Examination, role: str) -> str:
     subject = {"deceleration": "the deceleration", "velocity_final": "the velocity", "depth": "the depth"}[role]
     return (f"another model: {table.sheet!r} has depths in {depth} and velocities in {speed}, but "
             f"{subject} in {address(place, True)},{formula}, {what}")  # fmt: skip
+
+
+def _steps_agree(found: Sequence[Equation], inputs: Inputs, slack: float) -> bool:
+    """Whether depth and velocity of a table of numbers change by the same step, in some unit."""
+    rests = [eq.residual(inputs.powers) for eq in found if eq.name == "c = e"]
+    return all(abs(rest - round(rest)) < max(100 * slack, 1e-3) for rest in rests)
 
 
 def _rows_agree(exam: Examination) -> bool:

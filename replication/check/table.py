@@ -153,7 +153,7 @@ class Line:
 
     def rounding(self, value: float) -> float:
         """How far a number of this line may be from the one that was meant, by its digits."""
-        if self.computed or value == 0:
+        if self.computed or value == 0 or not math.isfinite(value):
             return 1e-14 * abs(value)
         digits, last = self._digits
         if digits >= 15:
@@ -439,14 +439,17 @@ def _on_sheet(
                     pairs.append((_score(depth, speed, lag, share), depth, speed, lag, c))
     pairs.sort(key=lambda entry: -entry[0])
     found: list[Table] = []
-    used: set[Line] = set()
+    used: set[Position] = set()
+
+    def is_free(line: Line) -> bool:
+        return used.isdisjoint(map(line.place, line.values))
+
     for _, depth, speed, lag, c in pairs:
-        if depth not in used and speed not in used:
-            free = [o for o in known if o not in used]
-            table = _made(evaluator, depth, speed, lag, c, free)
+        if is_free(depth) and is_free(speed):
+            table = _made(evaluator, depth, speed, lag, c, [o for o in known if is_free(o)])
             if table is not None and not any(_beside(table, o) for o in found):
                 found.append(table)
-                used.update(table.lines.values())
+                used.update(table.places)
     return found
 
 
