@@ -92,6 +92,7 @@ class Book:
     `columns` maps the columns of tables, written as in formulas, such as "Steps[x]", to their
     cells. `notes` tell the user what is left out. Stored numbers are exact to within `resolution`.
     `hidden` has the hidden rows of each sheet. `date1904`: day 0 of its dates is 1 January 1904.
+    `as_displayed`: its numbers are rounded as they are shown.
     """
 
     path: Path
@@ -102,6 +103,7 @@ class Book:
     columns: Mapping[str, str] = field(default_factory=dict)
     hidden: Mapping[str, frozenset[int]] = field(default_factory=dict)
     date1904: bool = False
+    as_displayed: bool = False
 
     def __getitem__(self, position: Position) -> Cell:
         sheet, row, column = position
@@ -223,7 +225,8 @@ class _Reader:
         tree, related = package.tree(main), package.relations(main)
         notes = [note for part, note in _NOTES.items() if any(part in p for p in package.parts)]
         self.date1904 = _is_set(tree.find("{*}workbookPr"), "date1904")
-        if not _is_set(tree.find("{*}calcPr"), "fullPrecision", "1"):
+        as_displayed = not _is_set(tree.find("{*}calcPr"), "fullPrecision", "1")
+        if as_displayed:
             notes.append("precision as displayed is set: its numbers are rounded as they are shown")
         strings = next((to for kind, to in related.values() if kind == "sharedStrings"), None)
         texts: list[str] = []
@@ -249,7 +252,7 @@ class _Reader:
         meanings = _names(tree, names, main)
         return Book(
             self.path, sheets, meanings, tuple(notes), columns=self.columns, hidden=hidden,
-            date1904=self.date1904,
+            date1904=self.date1904, as_displayed=as_displayed,
         )  # fmt: skip
 
     def tables(self, sheet: str, sheet_part: str) -> _Tables:

@@ -69,7 +69,9 @@ def _fail(error: str) -> float:
 def _mod(x: float, y: float) -> float:
     if y == 0:
         raise Fault("#DIV/0!")
-    return x - y * math.floor(x / y)
+    rest = x - y * math.floor(x / y)
+    # Programs store 0 where x is a multiple of y to fourteen digits.
+    return 0.0 if min(abs(rest), abs(y - rest)) <= 1e-14 * abs(x) else rest
 
 
 def _away(x: float) -> float:

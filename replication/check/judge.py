@@ -79,6 +79,14 @@ def examine(
     _trust_report(inputs)
     found = equations(table, exam.fitted, inputs)
     slack = max(CLOSE, exam.fitted.slack)
+    if _is_half(found, inputs):
+        diameter = inputs.cells.pop("diameter")
+        inputs.cells["radius"] = diameter
+        alike = [s for s in inputs.sources if s.computed and s.literal is None and s.family == "size"
+                 and s.value == diameter.value]  # fmt: skip
+        if alike:
+            inputs.derived["diameter"] = alike[0]
+        found = equations(table, exam.fitted, inputs)
     broken = _slipped(exam, inputs, found, slack)
     whole = [eq for eq in found if eq.name not in broken]
     result = mended(whole, inputs, slack)
@@ -106,6 +114,22 @@ def examine(
     _stop(exam, idle)
     exam.differences.sort(key=lambda d: d.rank)
     return exam
+
+
+def _is_half(found: Sequence[Equation], inputs: Inputs) -> bool:
+    """Whether the number taken for the diameter is the radius: the mass is an eighth of the right one.
+
+    The formula for the diameter is then wrong, not that for the mass.
+    """
+    if "diameter" not in inputs.cells or "radius" in inputs.cells:
+        return False
+    rests = {eq.name: eq.residual(inputs.powers) for eq in found}
+    eighth = math.log10(8)
+    if "mass" in rests:
+        return abs(rests["mass"] - eighth - round(rests["mass"] - eighth)) < CLOSE
+    return {"G", "H"} <= rests.keys() and all(
+        abs(rests[name] + eighth - round(rests[name] + eighth)) < CLOSE for name in ("G", "H")
+    )
 
 
 def _trust_report(inputs: Inputs) -> None:

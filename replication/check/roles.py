@@ -359,8 +359,11 @@ def _one_of_each(numbers: Sequence[Source], family: str) -> list[Source]:
     return list(some.values()) if len(some) <= 2 else []
 
 
-def _is_factor(source: Source) -> bool:
-    """Whether a cell holds a conversion factor or pi."""
+def _is_factor(source: Source, family: str = "") -> bool:
+    """Whether a cell holds a conversion factor or pi. A beta may be any small number but 1."""
+    power = math.log10(abs(source.value))
+    if family == "strength":
+        return abs(power - round(power)) < 1e-12
     return is_plain(source.value)
 
 
@@ -399,7 +402,7 @@ def _assign(
             inputs.how[role] = "label" if role in own(source) else "response"
 
     cells = sorted(typed, key=lambda s: (not own(s), is_plain(s.value), len(s.powers) == 0))
-    cells = [s for s in cells if own(s) or not _is_factor(s) or len(typed) == 1]
+    cells = [s for s in cells if own(s) or not _is_factor(s, family) or len(typed) == 1]
     if family in ("target", "step", "speed"):
         for source in cells:
             put(inputs.cells, members[0], source)
@@ -430,7 +433,9 @@ def _assign(
                 "particle_density" if cubed or "mass" in inputs.derived else "mass")  # fmt: skip
             put(inputs.cells, role, source)
         return
-    several = len([s for s in cells]) > 1
+    if len(cells) == 1 and made and not own(cells[0]):
+        cells += _without_effect(made, inputs, evaluator)
+    several = len(cells) > 1
     for source in sorted(cells, key=lambda s: s.value):
         label = own(source)
         if len(label) == 1:
@@ -452,6 +457,26 @@ def _assign(
         for source in made:
             if "resistance" in own(source) and "resistance" not in inputs.cells:
                 put(inputs.derived, "resistance", source)
+
+
+def _without_effect(
+    made: Sequence[Source], inputs: Inputs, evaluator: Evaluator
+) -> list[Source]:
+    """The typed cell that a formula for the resistance reads without any effect: in a sum, say.
+
+    Where a product of beta and flow stress was meant, a beta that is added vanishes.
+    """
+    for source in made:
+        assert source.place is not None
+        read = {(a.sheet, a.top, a.left) for a in evaluator.areas(source.place) if a.cells == 1}
+        still = [
+            s for s in inputs.sources
+            if s.cell in read and not s.computed and all(abs(p) < 1e-3 for p in s.powers.values())
+            and 1 < s.value < 1e3
+        ]  # fmt: skip
+        if len(still) == 1:
+            return still
+    return []
 
 
 def _size(source: Source, label: frozenset[str], inputs: Inputs, fitted: Fit) -> str:

@@ -773,7 +773,7 @@ def _least_squares(rows: Sequence[tuple[float, float, float]]) -> tuple[float, f
     if best is None:
         return nan
     G, H, D = best
-    for _ in range(50):  # Gauss-Newton on the three numbers themselves
+    for turn in range(60):  # Gauss-Newton on the three numbers themselves
         matrix = [[0.0] * 3 for _ in range(3)]
         right = [0.0] * 3
         for x, w, a in data:
@@ -791,11 +791,23 @@ def _least_squares(rows: Sequence[tuple[float, float, float]]) -> tuple[float, f
         if change is None:
             break
         G, H, D = G + change[0], H + change[1], D + change[2]
-        if max(abs(d) for d in change) < 1e-15 * max(abs(G), abs(H), abs(D)):
+        if max(abs(d) for d in change) < 1e-15 * max(abs(G), abs(H), abs(D)) and turn > 9:
             break
+        if turn in (3, 6, 9):  # leave out rows that a wrong number spoils
+            data = _without_outliers(data, Six(G, H, D, 1.0, 1.0, 1.0))
     return (
         G * scale_a / (scale_u**2 * scale_x**2), H * scale_a / scale_x**2, D * scale_x,
     )  # fmt: skip
+
+
+def _without_outliers(
+    data: list[tuple[float, float, float]], six: Six
+) -> list[tuple[float, float, float]]:
+    """The rows whose deviation from a fit is not far above the usual one."""
+    off = [abs(six.deceleration(x, math.sqrt(max(w, 0.0))) - a) / max(abs(a), 1e-6) for x, w, a in data]
+    usual = median(off)
+    kept = [row for row, deviation in zip(data, off, strict=True) if deviation <= 20 * usual + 1e-13]
+    return kept if len(kept) >= max(4, 0.7 * len(data)) else data
 
 
 def _linear(data: Sequence[tuple[float, float, float]]) -> tuple[float, float, float] | None:

@@ -17,8 +17,10 @@ def stale(evaluator: Evaluator) -> Iterator[Position]:
 
     A difference of nearly equal numbers has few digits of its own: a stored value is accepted if it
     lies within what the formula gives when the numbers that it reads change in their fifteenth
-    digit. Programs store 0 there.
+    digit. Programs store 0 there. Where numbers are rounded as they are shown, none is judged.
     """
+    if evaluator.book.as_displayed:
+        return
     for place in evaluator.formulas:
         stored = evaluator.book[place].value
         value = evaluator.values.get(place)
@@ -30,6 +32,8 @@ def stale(evaluator: Evaluator) -> Iterator[Position]:
             if _is_within(evaluator, place, stored, value):
                 continue
         elif evaluator.book[place].error and isinstance(value, Error):
+            continue
+        if type(stored) is not type(value) and _may_be(evaluator, place, stored):
             continue
         if _follows(evaluator, place, stored):
             continue
@@ -53,19 +57,38 @@ def _is_within(
     """Whether a stored value differs by no more than the last digits of what the formula reads."""
     low = high = value
     spread = 0.0
-    given = given or {}
-    for cell in _read(evaluator, place):
-        base = given.get(cell, evaluator.values[cell])
-        if type(base) is not float:
-            continue
-        for sign in (-1, 1):
-            changed = evaluator.value(place, {**given, cell: base * (1 + sign * 1.01 * _DIGITS)})
-            if type(changed) is float and math.isfinite(changed):
-                low, high = min(low, changed), max(high, changed)
-                spread += abs(changed - value) / 2
+    for changed in _varied(evaluator, place, given or {}):
+        if type(changed) is float and math.isfinite(changed):
+            low, high = min(low, changed), max(high, changed)
+            spread += abs(changed - value) / 2
     wide = any(area.cells > 1 for area in evaluator.areas(place))
     slack = spread + (10 if wide else 1) * _DIGITS * abs(value) + evaluator.book.resolution
     return low - slack <= stored <= high + slack
+
+
+def _varied(
+    evaluator: Evaluator, place: Position, given: dict[Position, Scalar]
+) -> Iterator[Scalar]:
+    """What a formula gives when each number that it reads or holds changes in its last digits."""
+    for sign in (-1, 1):
+        factor = 1 + sign * 1.01 * _DIGITS
+        for cell in _read(evaluator, place):
+            base = given.get(cell, evaluator.values[cell])
+            if type(base) is float:
+                yield evaluator.value(place, {**given, cell: base * factor})
+        for index, number in enumerate(evaluator.formulas[place].literals):
+            yield evaluator.value(place, given, {(*place, index): number * factor})
+
+
+def _may_be(evaluator: Evaluator, place: Position, stored: Scalar) -> bool:
+    """Whether a stored value is what the formula gives with other last digits of what it reads."""
+    for changed in _varied(evaluator, place, {}):
+        if changed == stored:
+            return True
+        if type(changed) is float and type(stored) is float:
+            if abs(changed - stored) <= 2 * _DIGITS * abs(stored):
+                return True
+    return False
 
 
 def _follows(evaluator: Evaluator, place: Position, stored: Scalar) -> bool:

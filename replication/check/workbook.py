@@ -9,6 +9,7 @@ from typing import Any
 from reference.units import same_dimension
 from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.judge import AnotherModel, examine
+from replication.check.repair import Slipped, mended, slipped
 from replication.check.results import PrintedCell, judge_results, printed_cells
 from replication.check.roles import cell_names, label_of
 from replication.check.stale import stale
@@ -83,6 +84,10 @@ def check(path: Path, given: Mapping[str, str] | None = None) -> Check:
 def check_book(book: Book, given: Mapping[str, str]) -> Check:
     """Check a book that was read; see `check`."""
     evaluator, texts = _evaluated(book)
+    lost = list(slipped(evaluator))
+    if lost:
+        book = mended(evaluator.book, lost)
+        evaluator, texts = _evaluated(_without_values(book))
     columns, cells = _mapped(given, evaluator)
     found = tables(evaluator, columns)[:_MOST_TABLES]
     if not found:
@@ -99,7 +104,34 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
     if not exams:
         raise ValueError(others[0])
     judge_results(exams, evaluator)
+    for slip in lost:
+        _tell_lost(exams, slip)
     return _collected(evaluator, exams, texts, others)
+
+
+def _without_values(book: Book) -> Book:
+    """The book without the stored values of its formulas, which follow from what is mended."""
+    return replace(
+        book,
+        sheets={
+            name: {at: c._replace(value=None, error=False) if c.formula else c for at, c in cells.items()}
+            for name, cells in book.sheets.items()
+        },
+    )
+
+
+def _tell_lost(exams: Sequence[Examination], slip: Slipped) -> None:
+    """Report a reference that lacks its $, if a table rests on the cells."""
+    for exam in exams:
+        lined = set(exam.table.places)
+        for line in exam.table.helpers:
+            lined |= {line.place(i) for i in line.values}
+        if slip.cells[0] in lined or slip.cells[-1] in lined:
+            meant = address(slip.meant, slip.meant[0] != slip.cells[0][0])
+            text = f"the reference to {meant} lacks its $: it slips away from that cell, row by row"
+            expected = slip.formulas[slip.cells[0]]
+            exam.add("odd formula", slip.cells, expected, text)
+            return
 
 
 def _collected(
