@@ -328,7 +328,7 @@ class WorkbookPlan:
         from openpyxl.utils.cell import coordinate_to_tuple
 
         from spreadsheets import engines, foreign
-        from spreadsheets.recalculation import Calculation, parse
+        from spreadsheets.evaluate import Evaluator
 
         sheets: dict[str, dict[tuple[int, int], foreign.Cell]] = {}
         for (sheet, address), cell in self.cells.items():
@@ -337,9 +337,11 @@ class WorkbookPlan:
         names = {cell.name: "'{}'!{}".format(*at) for at, cell in self.cells.items() if cell.name}
         book = foreign.Book(Path(), sheets, names)
         texts = {position: cell.formula for position, cell in book.cells() if cell.formula}
-        formulas = {position: parse(text, position, book) for position, text in texts.items()}
-        sources = {at for at, text in texts.items() if re.search(r"LN\(|SIN\(|\^|ROUND\(", text)}
-        inexact = Calculation(book, formulas, {}).needing(sources)
+        inexact = {at for at, text in texts.items() if re.search(r"LN\(|SIN\(|\^|ROUND\(", text)}
+        evaluator = Evaluator(book)
+        for place in sorted(texts, key=evaluator.order.__getitem__):
+            if not inexact.isdisjoint(evaluator.precedents(place)):
+                inexact.add(place)
         return {(sheet, engines.address(row, column)) for sheet, row, column in inexact}
 
 

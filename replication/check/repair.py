@@ -61,8 +61,9 @@ def _meant(
 ) -> Position | None:  # fmt: skip
     """The cell that a reference was meant to read in all rows; None if it slips from none.
 
-    Most of the cells that it reads are blank or texts. The cell meant is the first that it reads,
-    or the one before: the first row may have a formula of its own.
+    Most of the cells that it reads are blank or texts; or some are, and other formulas fix the cell
+    that is meant. That is the first that it reads, or the one before: the first row may have a
+    formula of its own.
     """
     read = []
     for _, row, column in cells:
@@ -71,15 +72,14 @@ def _meant(
     numbers = sum(
         type(evaluator.values.get(p)) is float or p in evaluator.formulas for p in read
     )
-    if numbers > len(read) / 2:
-        return None
+    blank = len(read) - numbers
     sheet, row, column = read[0]
     before = (sheet, row, column - 1) if across else (sheet, row - 1, column)
     candidates = [p for p in (before, read[0]) if type(evaluator.values.get(p)) is float]
     for place in candidates:
-        if place in fixed:
+        if place in fixed and blank:
             return place
-    return candidates[-1] if candidates and numbers else None
+    return candidates[-1] if candidates and 0 < numbers <= len(read) / 2 else None
 
 
 def _with_dollars(shape: Shape, ref: Reference, meant: Position, place: Position) -> str:

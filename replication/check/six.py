@@ -65,6 +65,8 @@ VARIANTS = {
                 "every step moves the depth by half a step only"),
         Variant("depth", "second order",
                 "the depth takes the deceleration into account, which the report does not"),
+        Variant("velocity_final", "sign of the deceleration",
+                "the velocity grows by the deceleration, by which it should fall"),
         Variant("deceleration", "centered",
                 "the drag is taken at the velocity in the middle of the step, half a step ahead of "
                 "the row's initial velocity"),
@@ -432,7 +434,11 @@ def _linear_fall(
     twice = (u - probe.value(place, {brake: 2 * a}, {}, {})) / (2 * a) * sign
     if not same or not math.isclose(slope, 1.0, rel_tol=1e-9):
         return e, None
-    return e, REPORT["velocity_final"] if math.isclose(e, twice, rel_tol=1e-9) else None
+    if not math.isclose(e, twice, rel_tol=1e-9):
+        return e, None
+    if e < 0:
+        return -e, VARIANTS["sign of the deceleration"]
+    return e, REPORT["velocity_final"]
 
 
 def _time_step(table: Table, probe: Probe) -> float | None:

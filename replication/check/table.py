@@ -425,8 +425,8 @@ def _on_sheet(
 ) -> list[Table]:
     """The tables among some lines of a sheet, the best pairs of depth and velocity first."""
     pairs = []
-    depths = [o for o in known if o.grows]
-    speeds = [o for o in known if o.positive and not _is_constant(o)]
+    depths = [o for o in known if o.grows or (o.computed and _reads(o, o))]
+    speeds = [o for o in known if (o.positive or o.computed) and not _is_constant(o)]
     if close == _LOOSE:
         depths, speeds = ([o for o in some if o.computed] for some in (depths, speeds))
     for depth in depths:
