@@ -20,6 +20,12 @@ _MOST_PROBED = 40
 """So many odd cells of a column are probed; of others only the value is compared."""
 
 
+def formula_at(exam: Examination, place: Position) -> str:
+    """The formula of a cell, cut if it is long; for a typed one, "the number"."""
+    shape = exam.table.evaluator.formulas.get(place)
+    return written(shape.key, place[1], place[2])[:200] if shape else "the number"
+
+
 def feeding(table: Table) -> list[Line]:
     """The lines beside the table that its columns read, in order of calculation."""
     read: set[Line] = set()

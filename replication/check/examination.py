@@ -40,28 +40,31 @@ class Examination:
     """Everything known about one table.
 
     `fitted` holds its six numbers in the units of its columns, `intended` those in SI units that
-    its inputs should give. `units` are the decimal logarithms of the units of its columns. `inputs`
-    are all inputs that are known, `read` all cells outside the table that it rests on. The final
-    depths are in metres; `right_depth` is that of the report's scheme with the intended inputs.
+    its inputs should give. `units` are the decimal logarithms of the units of its columns; `firm`
+    says that the workbook states the unit of the depths, or of the radius. `inputs`
+    are all inputs that are known, `read` all cells outside the table that it rests on. `corrected`
+    is an input whose number is in another unit, with its right value. `right_depth` [m] is the
+    final depth of the report's scheme with the intended inputs.
     """
 
     table: Table
     fitted: Fit
     inputs: dict[str, Input] = field(default_factory=dict)
     units: dict[str, float] = field(default_factory=dict)
+    firm: bool = False
     read: frozenset[Position] = frozenset()
     intended: Six | None = None
     stop_velocity: float = 1.0
     right_depth: float | None = None
-    steps_right: int | None = None
     ends: bool = True
+    corrected: tuple[str, float] | None = None
     differences: list[Difference] = field(default_factory=list)
 
     @property
     def final_depth(self) -> float | None:
         """The depth in the last row [m]."""
         value = self.table.number("depth", self.table.steps)
-        return None if value is None else value * 10.0 ** self.units.get("depth", 0.0)
+        return None if value is None else float(value * 10.0 ** self.units.get("depth", 0.0))
 
     @property
     def intended_ratio(self) -> float | None:
@@ -70,7 +73,7 @@ class Examination:
         if density is None or strength is None or density.place is None or strength.place is None:
             return None
         start = "velocity_initial" if "velocity_initial" in self.table.lines else "velocity_final"
-        return density.si / (2 * strength.si) * 10.0 ** (2 * self.units.get(start, 0.0))
+        return float(density.si / (2 * strength.si) * 10.0 ** (2 * self.units.get(start, 0.0)))
 
     @property
     def scheme(self) -> str:

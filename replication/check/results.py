@@ -9,9 +9,10 @@ from fractions import Fraction
 from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
 from replication.check.examination import NO_FAULT, Difference, Examination, near
-from replication.check.judge import report_inputs
+from replication.check.ends import OTHER_STOP
 from replication.check.roles import label_of
 from replication.check.table import address
+from replication.check.taken import case_of, report_inputs
 from replication.check.words import number_in, result_of, times_too, unit_text
 from replication.text import with_unit
 from spreadsheets.evaluate import Evaluator, written
@@ -98,7 +99,7 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
     wrong: set[Position] = set()
     for result in found:
         exam, table = result.exam, result.exam.table
-        if any(d.kind == "other scheme" and "other stop" in d.explanation for d in exam.differences):
+        if any(d.explanation.startswith(OTHER_STOP) for d in exam.differences):
             continue
         read = {(a.sheet, a.top, a.left) for a in evaluator.areas(result.place) if a.cells == 1}
         accused = {d.place for d in exam.differences if d.kind not in NO_FAULT}
@@ -144,7 +145,7 @@ def _fault(
             return "unit", None, f"{what} is {times_too(slip)}: a unit is not converted"
         return None
     X = exam.units.get("depth", 0.0)
-    if unit and sure and same_dimension(unit, "m") and unit != "1":
+    if unit and sure and exam.firm and same_dimension(unit, "m") and unit != "1":
         stated, power = math.log10(float(to_si(unit))), X - result.power
         if abs(stated - power) > 1e-9 and abs(stated - round(stated)) < 1e-9:
             shown = unit_text("depth", round(power))
@@ -183,7 +184,7 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
     A typed number belongs to the only table, or to that whose beta its label names.
     """
     for exam in exams:
-        case = _case(exam)
+        case = case_of(exam.intended, max(1e-9, 10 * exam.fitted.slack))
         if case is None:
             continue
         assert exam.intended is not None
@@ -206,27 +207,6 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
             elif kind == "depth" and exam.final_depth and value > 0:
                 power = 3 * round(math.log10(exam.final_depth / float(value)) / 3)
                 yield _judged(f"depth-{case}", place, value * Fraction(10) ** power, True)
-
-
-def _case(exam: Examination) -> str | None:
-    """The report's case that a table calculates, if it is one: the inputs agree, and the step."""
-    six, report = exam.intended, report_inputs()
-    if six is None:
-        return None
-    loose = max(1e-9, 10 * exam.fitted.slack)
-    M = report["mass"][0]
-    pairs = [
-        (six.G, math.pi * report["target_density"][0] / (2 * M)),
-        (six.D, 2 * report["radius"][0]), (six.V, report["velocity"][0]),
-    ]  # fmt: skip
-    if not all(math.isclose(a, b, rel_tol=loose) for a, b in pairs):
-        return None
-    if not any(math.isclose(six.c, step, rel_tol=loose) for step in (*report["step"], 5e-10)):
-        return None
-    for beta, resistance in zip((5, 3), report["resistance"], strict=True):
-        if math.isclose(six.H, math.pi * resistance / M, rel_tol=loose):
-            return f"beta-{beta}"
-    return None
 
 
 def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]]:

@@ -124,12 +124,18 @@ class Inputs:
     labels: dict[Position, tuple[str, str | None]] = field(default_factory=dict)
     how: dict[str, str] = field(default_factory=dict)
 
+    def label(self, source: Source) -> tuple[str, str | None]:
+        """The label of a cell, or the name of a number, and the unit that it states."""
+        if source.cell is None:
+            return source.name, None
+        return self.labels.get(source.cell, ("", None))
+
     def si(self, role: str) -> float | None:
         """An input in SI units, from its typed cell or else from its formula."""
         source = self.cells.get(role) or self.derived.get(role)
         if source is None:
             return None
-        return source.value * 10.0 ** self.powers.get(source.item, 0.0)
+        return float(source.value * 10.0 ** self.powers.get(source.item, 0.0))
 
 
 # ---- labels
@@ -649,7 +655,7 @@ def state_units(table: Table, inputs: Inputs) -> None:
             inputs.stated[item] = line.sure
     for role, source in (*inputs.cells.items(), *inputs.derived.items()):
         item = source.item
-        _, unit = inputs.labels.get(source.cell or ("", 0, 0), ("", None))
+        _, unit = inputs.label(source)
         if unit and same_dimension(unit, INPUTS[role]) and INPUTS[role] != "1":
             inputs.powers[item] = math.log10(float(to_si(unit)))
         else:
@@ -705,7 +711,7 @@ def _solve(
                 if abs(rest) < slack:
                     continue
                 for item in alone:
-                    power = _unit_power(-rest / eq.terms[item], slack)
+                    power = unit_power(-rest / eq.terms[item], slack)
                     if power is not None:
                         result[item] = result.get(item, 0.0) + power
                         break
@@ -715,7 +721,7 @@ def _solve(
     return None
 
 
-def _unit_power(power: float, slack: float) -> float | None:
+def unit_power(power: float, slack: float) -> float | None:
     """The power of ten between two units, or that of an unusual unit; None if it is neither."""
     near = round(power)
     if abs(power - near) <= slack + 2 * CLOSE:

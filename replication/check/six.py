@@ -484,8 +484,7 @@ def _is_polynomial(force: Force, grid: list[list[float]], x: float, u: float) ->
 def _force(force: Force, table: Table, e: float) -> tuple[tuple[float, float, float], Variant | None, bool]:
     """G, H and D of a force, its variant, and whether the drag is centered."""
     nan = (math.nan, math.nan, math.nan)
-    small = table.number("depth", min(3, table.steps)) or 0.0
-    small = abs(small) / 3 or 1e-9
+    small = abs(table.number("depth", 1) or table.number("depth", 2) or 1e-9) / 20
     speed = abs(_first_speed(table)) / 3 or 1.0
     if (refined := centered_numbers(force, small, speed, 0.0)) is None:
         return nan, None, False
@@ -640,7 +639,7 @@ def numbers_with(
     return result
 
 
-def parts_of(fitted: Fit, table: Table, place: Position, ratio: float | None) -> bool:
+def parts_of(fitted: Fit, place: Position, ratio: float | None) -> bool:
     """Whether a formula beside the table is a part of the right force, up to a constant.
 
     Such parts are powers of the velocity and the depth, the contact area D x - x², and the pressure

@@ -109,6 +109,16 @@ class Line:
                 return unit
         return None
 
+    @property
+    def unit_place(self) -> Position | None:
+        """The cell above in which a unit stands."""
+        first = min(self.values)
+        for index in range(first - 1, max(0, first - 1 - _HEADS), -1):
+            value = self.evaluator.values.get(self.place(index))
+            if isinstance(value, str) and (is_unit(value) or unit_in(value)):
+                return self.place(index)
+        return None
+
     @cached_property
     def sure(self) -> bool:
         """Whether the unit stands in brackets, after "in", or in a cell of its own."""
@@ -511,6 +521,7 @@ def _typical(line: Line) -> int:
 def _score(depth: Line, speed: Line, lag: int, share: float) -> float:
     """How well a pair fits: by its rows, by what reads what, and by its heads."""
     score = round(share, 1) + min(len(depth.values), 1000) / 1e4 - 0.1 * lag
+    score += 2 * depth.grows + 2 * speed.positive
     if depth.computed and speed.computed:
         score += 2 * (_reads(depth, depth) and not _by_view(depth)) + 2 * _reads(depth, speed)
     score += 0.5 * ("depth" in depth.roles) + 0.3 * any("veloc" in r for r in speed.roles)

@@ -1,0 +1,96 @@
+"""Numbers typed into formulas where the cell of an input should be read."""
+
+import math
+from collections.abc import Mapping, Sequence
+
+from replication.check.cells import formula_at
+from replication.check.examination import Examination
+from replication.check.roles import FAMILIES, Inputs, Source, is_plain
+from replication.check.table import address
+from replication.check.words import input_roles, title
+from spreadsheets.evaluate import Scalar
+from spreadsheets.foreign import Position
+
+_TESTED_BY = {
+    "step": ("c = dt", "e = dt", "t = dt", "c = e"), "target": ("G",), "strength": ("H",),
+    "size": ("D", "G", "H", "mass"), "inertia": ("G", "H"), "speed": ("V",),
+}  # fmt: skip
+"""The equations that a typed number breaks if it is not that of the cell."""
+
+
+def typed_constants(
+    exam: Examination, inputs: Inputs, beside: Sequence[Position], broken: dict[str, str]
+) -> None:
+    """Report numbers typed into formulas of the rows where a cell holds that input.
+
+    `beside` are numbers that the table does not read; `broken` are the equations that do not hold,
+    of which this explains some.
+    """
+    told: set[tuple[Position, str]] = set()
+    for source in inputs.sources:
+        family = source.family
+        if source.literal is None or source.place is None or family is None:
+            continue  # a name that stands for a number is an input by itself
+        cell = _cell_for(source, family, inputs, beside, exam.table.evaluator.values)
+        if cell is None:
+            continue
+        role, place = cell
+        cells = _cells_with(exam, source.place)
+        if (cells[0], role) not in told:
+            told.add((cells[0], role))
+            where = address(place, place[0] != exam.table.sheet)
+            text = f"{title(role)} is typed as {source.value:.10g}, where {where} should be read"
+            exam.add("typed constant", cells, where, text, formula_at(exam, cells[0]))
+            for name in _TESTED_BY[family]:
+                broken.pop(name, None)
+
+
+def _cells_with(exam: Examination, place: Position) -> list[Position]:
+    """All cells of a column that have the formula of a cell; or the one cell beside the table."""
+    table, formulas = exam.table, exam.table.evaluator.formulas
+    for line in (*table.lines.values(), *table.helpers):
+        if line.place(place[2] if line.across else place[1]) == place:
+            cells = [line.place(i) for _, i in sorted(table.rows.items())]
+            return [cell for cell in cells if formulas.get(cell) is formulas[place]]
+    return [place]
+
+
+def _cell_for(
+    source: Source, family: str, inputs: Inputs, beside: Sequence[Position],
+    values: Mapping[Position, Scalar],
+) -> tuple[str, Position] | None:  # fmt: skip
+    """The role and the cell of what a typed number repeats; None if there is none.
+
+    It is a cell that the rows read but to which the part with the typed number does not respond; or
+    a cell that nothing reads, with such a label or with that very number.
+    """
+    needed = [name for name, power in source.powers.items() if abs(power) > 0.02]
+    for role in FAMILIES[family]:
+        known = inputs.cells.get(role)
+        if known is None or known.cell is None:
+            continue
+        alike = _digits_alike(source.value, known.value)
+        single = family in ("target", "step", "speed")
+        if inputs.how.get(role) == "unread":
+            if alike or single:
+                return role, known.cell
+        elif any(abs(known.powers.get(name, 0.0)) < 0.02 for name in needed) and (
+            family != "inertia" and (family != "size" or alike)
+        ):
+            return role, known.cell
+    for place in beside:
+        value = values.get(place)
+        if type(value) is float and value == source.value and not is_plain(value):
+            label, unit = inputs.labels.get(place, ("", None))
+            roles = input_roles(label, unit) if label else frozenset(FAMILIES[family])
+            if wanted := [role for role in FAMILIES[family] if role in roles or not roles]:
+                return wanted[0], place
+    return None
+
+
+def _digits_alike(a: float, b: float) -> bool:
+    """Whether two numbers are the same but for a power of ten, or one is twice the other."""
+    if not a or not b or a / b <= 0:
+        return False
+    powers = (math.log10(a / b * times) for times in (1.0, 2.0, 0.5))
+    return any(abs(power - round(power)) < 1e-9 for power in powers)
