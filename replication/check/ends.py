@@ -197,7 +197,8 @@ def _stop_velocity(
 ) -> float:
     """The velocity at which the rows stop: that of its cell, or 1 m/s as in the report.
 
-    A cell without a known label is it if the last row is the first one below its number.
+    A cell without a known label is it if the last row is the first one below its number, in the
+    unit of the column or in SI units; in any unit if no unit of a velocity is stated.
     """
     if "stop_velocity" in exam.inputs:
         return exam.inputs["stop_velocity"].si
@@ -208,10 +209,11 @@ def _stop_velocity(
     for place in (*sorted(exam.read), *idle):
         value = exam.table.evaluator.values.get(place)
         if type(value) is float and place not in taken and value > 0:
-            for each in (value * unit, value):  # in the unit of the column, or in SI units
+            units = (unit, 1.0) if exam.firm_speed else [10.0**n for n in range(-12, 13)]
+            for each in (value * factor for factor in units):
                 if last < each <= before and each <= _SLOW * exam.fitted.six.V * unit:
-                    return each
-    return 1.0
+                    return float(each)
+    return 1.0 if exam.firm_speed else min(1.0, before)
 
 
 def _shows_stop(exam: Examination, below: int) -> bool:

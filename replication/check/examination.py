@@ -7,7 +7,7 @@ from fractions import Fraction
 
 from replication.check import difference
 from replication.check.roles import Input
-from replication.check.six import Fit, Six
+from replication.check.six import Fit, RightForce, Six
 from replication.check.table import Table
 from replication.check.words import COLUMNS
 from spreadsheets.foreign import Position, Value
@@ -41,7 +41,8 @@ class Examination:
 
     `fitted` holds its six numbers in the units of its columns, `intended` those in SI units that
     its inputs should give. `units` are the decimal logarithms of the units of its columns; `firm`
-    says that the workbook states the unit of the depths, or of the radius. `inputs`
+    says that the workbook states the unit of the depths, or of the radius, and `firm_speed` that it
+    states that of the velocities. `inputs`
     are all inputs that are known, `read` all cells outside the table that it rests on. `corrected`
     is an input whose number is in another unit, with its right value. `right_depth` [m] is the
     final depth of the report's scheme with the intended inputs.
@@ -52,6 +53,7 @@ class Examination:
     inputs: dict[str, Input] = field(default_factory=dict)
     units: dict[str, float] = field(default_factory=dict)
     firm: bool = False
+    firm_speed: bool = False
     read: frozenset[Position] = frozenset()
     intended: Six | None = None
     stop_velocity: float = 1.0
@@ -66,14 +68,19 @@ class Examination:
         value = self.table.number("depth", self.table.steps)
         return None if value is None else float(value * 10.0 ** self.units.get("depth", 0.0))
 
-    @property
-    def intended_ratio(self) -> float | None:
-        """G/H as the inputs give it, in the units of the columns; None if they do not."""
-        density, strength = self.inputs.get("target_density"), self.inputs.get("resistance")
-        if density is None or strength is None or density.place is None or strength.place is None:
-            return None
+    def right_force(self, off: float | None = None) -> RightForce:
+        """The force that the inputs give, as far as cells hold them; `off`: how a wrong one is off."""
+        known = {
+            role: entry.si for role, entry in self.inputs.items()
+            if entry.place is not None or entry.how == "follows"
+        }  # fmt: skip
+        density, strength = known.get("target_density"), known.get("resistance")
+        D = 2 * known["radius"] * 10.0 ** -self.units.get("depth", 0.0) if "radius" in known else None
         start = "velocity_initial" if "velocity_initial" in self.table.lines else "velocity_final"
-        return float(density.si / (2 * strength.si) * 10.0 ** (2 * self.units.get(start, 0.0)))
+        ratio = None
+        if density and strength:
+            ratio = density / (2 * strength) * 10.0 ** (2 * self.units.get(start, 0.0))
+        return RightForce(ratio, D, density, strength, off)
 
     @property
     def scheme(self) -> str:

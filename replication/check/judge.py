@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from replication.check.cells import feeding, formula_at, odd_cells
 from replication.check.constants import typed_constants
@@ -20,7 +21,7 @@ from replication.check.roles import (
     state_units,
     unit_power,
 )
-from replication.check.six import REPORT, VARIANTS, end_of_row, fit, parts_of, start_of_row
+from replication.check.six import REPORT, VARIANTS, end_of_row, fit, is_part, start_of_row
 from replication.check.table import Table, address
 from replication.check.taken import compare_with_report, intend, report_inputs, take_inputs
 from replication.check.words import times_too, title, unit_text
@@ -51,14 +52,16 @@ def examine(
         _take_for_radius(inputs)
         found = equations(table, exam.fitted, inputs)
     slack = max(CLOSE, exam.fitted.slack)
-    broken = _without_unit(exam, inputs, found, slack)
-    of_units = [eq for eq in found if eq.name not in broken]
+    broken, of_units = _without_unit(exam, inputs, found, slack)
     result, stated = mended(of_units, inputs, slack), inputs.powers
     if result is not None:
         inputs.powers = result[0]
     exam.units = {role: inputs.powers.get(("column", role), 0.0) for role in table.lines}
     sizes = [inputs.cells[role].item for role in ("radius", "diameter") if role in inputs.cells]
     exam.firm = any(item in inputs.stated for item in (("column", "depth"), *sizes))
+    speeds = [("column", role) for role in ("velocity_initial", "velocity_final")]
+    speeds += [inputs.cells["velocity"].item] if "velocity" in inputs.cells else []
+    exam.firm_speed = any(item in inputs.stated for item in speeds)
     refuse_other_model(exam, inputs, found, slack)
     take_inputs(exam, inputs)
     typed_constants(exam, inputs, [place for place in typed if place not in exam.read], broken)
@@ -129,14 +132,17 @@ def _other_ways(exam: Examination) -> None:
             exam.add("odd formula", cells, None, text)
 
 
-def _first_wrong(exam: Examination) -> list[Position]:
-    """The cells of the first column beside the table that is no part of the right force."""
+def _first_wrong(exam: Examination, off: float | None = None) -> list[Position]:
+    """The cells of the first column beside the table that is no part of the right force.
+
+    `off` is the ratio of the wrong force to the right one, if it is known.
+    """
     fitted, table = exam.fitted, exam.table
     if fitted.probe is None or fitted.force_of is None:
         return []
     index = table.rows[fitted.probe.k]
     for line in feeding(table):
-        if not parts_of(fitted, line.place(index), exam.intended_ratio):
+        if not is_part(fitted, line.place(index), exam.right_force(off)):
             rows = sorted(table.rows.items())
             return [line.place(i) for k, i in rows if k >= 1 and i in line.values]
     return []
@@ -165,20 +171,28 @@ def _slips(name: str, inputs: Inputs) -> list[tuple[float, str]]:
 
 def _without_unit(
     exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
-) -> dict[str, str]:
-    """The equations that no unit can mend: each by its name, with the slip that it shows."""
+) -> tuple[dict[str, str], list[Equation]]:
+    """The equations that no unit can mend, each by its name with the slip that it shows.
+
+    Then all the others; and those with a slip, without it, as they still tell a unit.
+    """
     broken: dict[str, str] = {}
+    mendable: list[Equation] = []
     vague = _VAGUE * slack if exam.fitted.probe is None else 0.0
     for eq in found:
         rest = eq.residual(inputs.powers)
         free = [item for item in eq.terms if item not in inputs.stated]
-        mendable = any(unit_power(-rest / eq.terms[item], slack) is not None for item in free)
-        if abs(rest - round(rest)) <= slack + 2 * CLOSE or abs(rest) < vague or mendable:
+        by_unit = any(unit_power(-rest / eq.terms[item], slack) is not None for item in free)
+        if abs(rest - round(rest)) <= slack + 2 * CLOSE or abs(rest) < vague or by_unit:
+            mendable.append(eq)
             continue
-        offs = [(rest - math.log10(ratio), slip) for ratio, slip in _slips(eq.name, inputs)]
-        close = max(slack, 1e-8)
-        broken[eq.name] = next((slip for x, slip in offs if abs(x - round(x)) <= close), "")
-    return broken
+        broken[eq.name] = ""
+        for ratio, slip in _slips(eq.name, inputs):
+            off = rest - math.log10(ratio)
+            if not broken[eq.name] and abs(off - round(off)) <= max(slack, 1e-8):
+                broken[eq.name] = slip
+                mendable.append(replace(eq, rest=eq.rest - math.log10(ratio)))
+    return broken, mendable
 
 
 def _broken_equations(
@@ -191,7 +205,7 @@ def _broken_equations(
     for role, source in rests_on.items():
         if role in broken:
             _wrong_cell(exam, inputs, role, source, times[role], broken[role])
-    _wrong_force(exam, broken, times)
+    _wrong_force(exam, inputs, broken, times)
     _other_steps(exam, broken)
     start = first_speed(exam.table)
     if "V" in broken and start is not None and start not in {d.place for d in exam.differences}:
@@ -223,16 +237,38 @@ def _wrong_cell(
 _PARTS = {"D": "the diameter in the contact area", "G": "the drag", "H": "the resistance"}
 
 
-def _wrong_force(exam: Examination, broken: Mapping[str, str], times: Mapping[str, float]) -> None:
+def _repeats_radius(exam: Examination, inputs: Inputs) -> Position | None:
+    """A formula of which only the contact area makes use, and that repeats the radius."""
+    radius = inputs.cells.get("radius")
+    for source in inputs.sources:
+        alone = abs(source.powers.get("G", 0.0)) < 0.02 and source.family == "size"
+        if source.computed and alone and radius is not None and source.cell is not None:
+            power = math.log10(source.value / radius.value)
+            if abs(power - round(power)) < 1e-12 and source.cell not in {
+                d.place for d in exam.differences
+            }:
+                return source.cell
+    return None
+
+
+def _wrong_force(
+    exam: Examination, inputs: Inputs, broken: Mapping[str, str], times: Mapping[str, float]
+) -> None:
     """Report a force that has not the numbers that the inputs give."""
     way = exam.fitted.ways.get("deceleration", REPORT["deceleration"])
     parts = [name for name in _PARTS if name in broken and not (name == "D" and "diameter" in broken)]
     if not parts or (way is not REPORT["deceleration"] and not exam.fitted.centered):
         return
-    blamed = _first_wrong(exam) or exam.cells(exam.fitted.brakes, 1)
-    if blamed[0] in {d.place for d in exam.differences}:
+    both = {"G", "H"} <= broken.keys() and math.isclose(times["G"], times["H"], rel_tol=1e-8)
+    off = times["G"] if both else times.get("H") if parts == ["H"] else None
+    blamed = _first_wrong(exam, off) or exam.cells(exam.fitted.brakes, 1)
+    if broken.get("D") == "area with R for D" and (cell := _repeats_radius(exam, inputs)):
+        text = f"{formula_at(exam, cell)} does not give {title('diameter')}: it repeats the radius"
+        exam.add("odd formula", [cell], None, text)
+        parts.remove("D")
+    if not parts or blamed[0] in {d.place for d in exam.differences}:
         return
-    if {"G", "H"} <= broken.keys() and math.isclose(times["G"], times["H"], rel_tol=1e-8):
+    if both:
         parts = [name for name in parts if name == "D"]
         if broken["G"].startswith("pi "):
             exam.add("typed constant", blamed, None, f"pi is typed as {broken['G'][3:]}")

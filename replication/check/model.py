@@ -42,8 +42,8 @@ def refuse_other_model(
         return
     hold = {eq.name for eq in found if abs(eq.residual(inputs.powers)) < slack}
     strong = len(hold & {"D", "mass", "diameter", "G", "H", "resistance"})
-    if strong >= (1 if fitted.centered else 2):
-        return
+    if strong >= (1 if fitted.centered else 2) or ("D" in hold and force is None):
+        return  # the contact area is that of the sphere whose radius a cell holds
     known, report = _known_families(inputs)
     if known >= _LEAST_KNOWN and (strong or report > 1):
         return

@@ -299,7 +299,7 @@ def sources(table: Table, fitted: Fit) -> list[Source]:
             powers = exponents(numbers_at({place: value * _NUDGE}, {}))
             found.append(Source(place, None, value, powers, computed))
     for key, (value, holder) in numbers.items():
-        if not is_plain(value):
+        if not is_plain(value) and unit_power(math.log10(abs(value)), 1e-7) is None:
             powers = exponents(numbers_at({}, {key: value * _NUDGE}))
             found.append(Source(holder, key, value, powers))
     return found

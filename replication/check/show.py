@@ -15,8 +15,8 @@ from replication.check.words import COLUMNS, INPUTS, count, unit_text
 from replication.check.workbook import Check
 from replication.reading import printable
 from replication.text import aligned, quantity, with_unit
-from spreadsheets.foreign import Position
 from spreadsheets.evaluate import Evaluator, column_letters
+from spreadsheets.foreign import Position
 
 _MOST = 12
 """How many entries of a list the text shows: with more of one kind, the first matter most."""

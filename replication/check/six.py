@@ -253,12 +253,15 @@ def _row_to_probe(table: Table) -> int | None:
         for role, line in table.lines.items()
         if role != "time" and line.usual is not None
     ]
+    helpers = [(line, line.usual) for line in table.helpers if line.usual is not None]
     candidates = []
     for k in table.rows:
         if k < 2 or k - 1 not in table.rows or k + 1 not in table.rows:
             continue
         good = sum(formulas.get(table.place(role, k)) is shape for role, shape in computed)
         good += sum(formulas.get(table.place(role, k + 1)) is shape for role, shape in computed)
+        for line, shape in helpers:
+            good += formulas.get(line.place(table.rows[k])) is shape
         straight = table.rows[k + 1] - table.rows[k - 1] == 2
         candidates.append((-good, not straight, abs(k - table.steps // 2), k))
     return min(candidates)[-1] if candidates else None
@@ -380,6 +383,8 @@ def _advance(table: Table, probe: Probe, start: State, end: State) -> tuple[floa
         slopes[name] = slope
     speeds = [s for s in read if s[0].startswith("velocity")]
     c = sum(slopes[s] for s in speeds) if speeds else math.nan
+    if len(speeds) == 1 and before in read:  # without the depth, to lose no digits
+        c = probe.value(place, {before: 1e-200}, {}, {}) / probe.base[speeds[0]]
     same = {start}  # the same velocity may be read where it is repeated
     if start == ("velocity_initial", 0) and ("velocity_final", -1) in probe.state:
         same.add(("velocity_final", -1))
@@ -497,12 +502,29 @@ def _force(force: Force, table: Table, e: float) -> tuple[tuple[float, float, fl
     if _is_polynomial(force, grid, small, speed):
         numbers, way = _named_force(grid, small, speed)
         return numbers, way, False
+    if (diameter := _diameter_of(force, small, speed)) is not None:
+        return (math.nan, math.nan, diameter), None, False
     if math.isfinite(e):
         D = D if D > 0 and math.isfinite(D) else 40 * small
         numbers = centered_numbers(force, 0.1 * D, abs(_first_speed(table)) / 3, e / 2)
         if numbers is not None and _is_centered(force, numbers, e / 2, table):
             return numbers, VARIANTS["centered"], True
     return nan, None, False
+
+
+def _diameter_of(force: Force, x: float, u: float) -> float | None:
+    """D of a force that is a contact area D x - x² times anything that depends on the velocity."""
+    found = []
+    for speed in (u, 2.3 * u):
+        free, slope, square = _quadratic([force(s * x, speed) for s in (1, 2, 3)])
+        largest = max(abs(slope), abs(square))
+        if not square or abs(free) > 1e-8 * largest or abs(square) < 1e-6 * largest:
+            return None
+        test = 2.6 * slope + 2.6**2 * square
+        if not math.isclose(force(2.6 * x, speed), test, rel_tol=1e-7):
+            return None
+        found.append(-slope / square * x)
+    return found[0] if found[0] > 0 and math.isclose(*found, rel_tol=1e-7) else None
 
 
 def centered_numbers(
@@ -639,11 +661,22 @@ def numbers_with(
     return result
 
 
-def parts_of(fitted: Fit, place: Position, ratio: float | None) -> bool:
+class RightForce(NamedTuple):
+    """The right force by its inputs, in SI units but for D, and in which ratio the wrong one is off."""
+
+    ratio: float | None
+    D: float | None
+    density: float | None
+    resistance: float | None
+    off: float | None = None
+
+
+def is_part(fitted: Fit, place: Position, right: RightForce) -> bool:
     """Whether a formula beside the table is a part of the right force, up to a constant.
 
     Such parts are powers of the velocity and the depth, the contact area D x - x², and the pressure
-    (G u² + H); `ratio` is the right G/H, `fitted.six.D` the right D, in the units of the columns.
+    (G u² + H); `right.ratio` is the right G/H, `right.D` the right D, in the units of the columns.
+    A constant is wrong if its digits are `right.off` times those that the inputs give.
     """
     assert fitted.probe is not None and fitted.force_of is not None
     probe, (x, u) = fitted.probe, fitted.force_of
@@ -651,10 +684,10 @@ def parts_of(fitted: Fit, place: Position, ratio: float | None) -> bool:
     def force(depth: float, speed: float) -> float:
         return probe.value(place, {x: depth, u: speed}, {}, {})
 
-    D = fitted.six.D if 0 < fitted.six.D < math.inf else 1.0
+    D = right.D or (fitted.six.D if 0 < fitted.six.D < math.inf else 1.0)
     small, speed = 0.1 * D, abs(fitted.six.V) / 3
-    if ratio and ratio > 0:
-        speed = 0.5 / math.sqrt(ratio)
+    if right.ratio and right.ratio > 0:
+        speed = 0.5 / math.sqrt(right.ratio)
     grid = _grid(force, small, speed)
     if not all(math.isfinite(value) for row in grid for value in row):
         return True
@@ -662,22 +695,26 @@ def parts_of(fitted: Fit, place: Position, ratio: float | None) -> bool:
         return False
     largest = max(abs(value) for row in grid for value in row)
     terms = {(i, j) for i in range(3) for j in range(3) if abs(grid[i][j]) > 1e-8 * largest}
-    rows, columns = {i for i, _ in terms}, {j for _, j in terms}
-    if len(terms) != len(rows) * len(columns):
+    rows, columns = sorted({i for i, _ in terms}), sorted({j for _, j in terms})
+    if len(terms) != len(rows) * len(columns) or columns not in ([0], [1], [2], [1, 2], [0, 1]):
         return False
-    if len(columns) > 1:
-        i = next(iter(rows))
-        wanted = {frozenset({1, 2}): -D / small, frozenset({0, 1}): None}.get(frozenset(columns), 0.0)
-        if wanted == 0.0:
-            return False
-        if wanted is not None and not math.isclose(grid[i][1] / grid[i][2], wanted, rel_tol=1e-6):
-            return False
+    i, j = rows[-1], columns[-1]
+    if columns == [1, 2] and not math.isclose(grid[i][1] / grid[i][2], -D / small, rel_tol=1e-6):
+        return False
     if len(rows) > 1:
-        j = next(iter(columns))
-        if rows != {0, 2} or not ratio:
-            return rows == {0, 2}
-        return math.isclose(grid[2][j] / grid[0][j] / speed**2, ratio, rel_tol=1e-6)
-    return True
+        if rows != [0, 2]:
+            return False
+        share = grid[2][j] / grid[0][j] / speed**2
+        if right.ratio and not math.isclose(share, right.ratio, rel_tol=1e-6):
+            return False
+    constant = abs(grid[rows[0]][j]) / (speed ** rows[0] * small**j)
+    known = {0: right.resistance, 2: right.density and right.density / 2}.get(rows[0])
+    if columns == [1, 2]:
+        known = math.pi * (known or 1.0) if rows != [0] else math.pi
+    if right.off is None or known is None or columns not in ([0], [1, 2]) or rows == [0] == columns:
+        return True
+    slip = math.log10(constant / known / right.off)
+    return abs(slip - round(slip)) > 1e-8
 
 
 def is_bounded(fitted: Fit, table: Table) -> bool:
@@ -773,19 +810,36 @@ def _least_squares(rows: Sequence[tuple[float, float, float]]) -> tuple[float, f
     scale_u = max(abs(u) for _, u, _ in rows) or 1.0
     scale_a = max(abs(a) for *_, a in rows) or 1.0
     data = [(x / scale_x, (u / scale_u) ** 2, a / scale_a) for x, u, a in rows]
-    G, H, D = 1.0, 1.0, 2.0
-    best = _linear(data)
-    if best is None:
+    thirds = [data[i::3] for i in range(3)] if len(data) >= 12 else []
+    # A wrong number spoils one of them; the best fits most of all rows.
+    fits = [six for part in (data, *thirds) if (six := _three_numbers(part)) is not None]
+    if not fits:
         return nan
-    G, H, D = best
-    for turn in range(60):  # Gauss-Newton on the three numbers themselves
+    best = min(fits, key=lambda six: _usual_miss(data, six))
+    for _ in range(3):
+        kept = _without_outliers(data, best)
+        best = _three_numbers(kept, best) or best
+    G, H, D = best[:3]
+    return (
+        G * scale_a / (scale_u**2 * scale_x**2), H * scale_a / scale_x**2, D * scale_x,
+    )  # fmt: skip
+
+
+def _three_numbers(
+    data: Sequence[tuple[float, float, float]], start: Six | None = None
+) -> Six | None:
+    """G, H and D of scaled rows (x, u², a) by Gauss-Newton; None if they do not tell."""
+    guess = start[:3] if start is not None else _linear(data)
+    if guess is None:
+        return None
+    G, H, D = guess
+    for _ in range(40):
         matrix = [[0.0] * 3 for _ in range(3)]
         right = [0.0] * 3
         for x, w, a in data:
             inside = x < D / 2
             area = D * x - x * x if inside else D * D / 4
-            slope = x if inside else D / 2
-            gradient = (w * area, area, (G * w + H) * slope)
+            gradient = (w * area, area, (G * w + H) * (x if inside else D / 2))
             rest = a - (G * w + H) * area
             weight = 1.0 / max(abs(a), 1e-6) ** 2
             for i in range(3):
@@ -794,22 +848,32 @@ def _least_squares(rows: Sequence[tuple[float, float, float]]) -> tuple[float, f
                     matrix[i][j] += weight * gradient[i] * gradient[j]
         change = _solved(matrix, right)
         if change is None:
-            break
+            return None
         G, H, D = G + change[0], H + change[1], D + change[2]
-        if max(abs(d) for d in change) < 1e-15 * max(abs(G), abs(H), abs(D)) and turn > 9:
+        if not all(map(math.isfinite, (G, H, D))):
+            return None
+        if max(abs(d) for d in change) < 1e-15 * max(abs(G), abs(H), abs(D)):
             break
-        if turn in (3, 6, 9):  # leave out rows that a wrong number spoils
-            data = _without_outliers(data, Six(G, H, D, 1.0, 1.0, 1.0))
-    return (
-        G * scale_a / (scale_u**2 * scale_x**2), H * scale_a / scale_x**2, D * scale_x,
-    )  # fmt: skip
+    return Six(G, H, D, 1.0, 1.0, 1.0)
+
+
+def _misses(data: Sequence[tuple[float, float, float]], six: Six) -> list[float]:
+    """The relative deviation of each row from a fit."""
+    return [
+        abs(six.deceleration(x, math.sqrt(max(w, 0.0))) - a) / max(abs(a), 1e-6)
+        for x, w, a in data
+    ]  # fmt: skip
+
+
+def _usual_miss(data: Sequence[tuple[float, float, float]], six: Six) -> float:
+    return median(_misses(data, six))
 
 
 def _without_outliers(
     data: list[tuple[float, float, float]], six: Six
 ) -> list[tuple[float, float, float]]:
     """The rows whose deviation from a fit is not far above the usual one."""
-    off = [abs(six.deceleration(x, math.sqrt(max(w, 0.0))) - a) / max(abs(a), 1e-6) for x, w, a in data]
+    off = _misses(data, six)
     usual = median(off)
     kept = [row for row, deviation in zip(data, off, strict=True) if deviation <= 20 * usual + 1e-13]
     return kept if len(kept) >= max(4, 0.7 * len(data)) else data

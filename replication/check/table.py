@@ -447,6 +447,9 @@ def _on_sheet(
                 c, share = grows_by(depth, speed, lag, close)
                 if share > 0.5 and c > 0 and _may_be(depth, speed):
                     pairs.append((_score(depth, speed, lag, share), depth, speed, lag, c))
+    if any(not pair[1].computed for pair in pairs):
+        pairs = [(score + _support(speed, c, known), depth, speed, lag, c)
+                 for score, depth, speed, lag, c in pairs]  # fmt: skip
     pairs.sort(key=lambda entry: -entry[0])
     found: list[Table] = []
     used: set[Position] = set()
@@ -457,10 +460,26 @@ def _on_sheet(
     for _, depth, speed, lag, c in pairs:
         if is_free(depth) and is_free(speed):
             table = _made(evaluator, depth, speed, lag, c, [o for o in known if is_free(o)])
-            if table is not None and not any(_beside(table, o) for o in found):
+            if table is None or any(_beside(table, o) for o in found):
+                continue
+            if depth.computed or len(table.lines) > 2 or not found:
                 found.append(table)
                 used.update(table.places)
     return found
+
+
+def _support(speed: Line, c: float, known: Sequence[Line]) -> float:
+    """How well other numbers support a velocity: one repeats it, or it falls by one times c."""
+    others = [line for line in known if line is not speed]
+    repeated = any(repeats(speed, line) > 0.5 or repeats(line, speed) > 0.5 for line in others)
+    falls = [("velocity_initial", None), ("velocity_final", None)]
+    falls += [("velocity_initial", line) for line in others if repeats(speed, line) > 0.5]
+    falls += [("velocity_initial", speed) for line in others if repeats(line, speed) > 0.5]
+    for role, end in falls:
+        brake = _brake(_falls(speed, end, role), others, c, speed, strict=True)
+        if brake is not None:
+            return 1.0 + repeated
+    return float(repeated)
 
 
 def _may_be(depth: Line, speed: Line) -> bool:
@@ -659,11 +678,13 @@ def _first_row(
 
 
 def _brake(
-    falls: Sequence[tuple[int, float, float]], others: Sequence[Line], c: float, speed: Line
-) -> Line | None:
+    falls: Sequence[tuple[int, float, float]], others: Sequence[Line], c: float, speed: Line,
+    strict: bool = False,
+) -> Line | None:  # fmt: skip
     """The line of decelerations: the velocity falls by it times the constant of the depth.
 
-    Forces and changes of velocity fall with it, too, but by other constants.
+    Forces and changes of velocity fall with it, too, but by other constants; `strict` takes no
+    line with another constant than a power of ten times `c`.
     """
     ranked = []
     for line in others:
@@ -687,6 +708,8 @@ def _brake(
         other = bool(line.roles) and not named
         ranked.append((not fits, not named, other, not _reads(speed, line), line.number, line))
     ranked.sort(key=lambda entry: entry[:-1])
+    if strict:
+        return ranked[0][-1] if ranked and not ranked[0][0] else None
     if not ranked or (ranked[0][0] and ranked[0][1]):
         near = [entry for entry in ranked if not entry[2] and not entry[3]]
         return near[0][-1] if near and ranked[0][0] and not _is_product(near[0][-1]) else None

@@ -273,11 +273,12 @@ def _idle(evaluator: Evaluator, found: Sequence[Table]) -> list[Position]:
 
 
 def _beside(table: Table, idle: Sequence[Position], found: Sequence[Table]) -> list[Position]:
-    """The idle cells that may belong to a table: typed ones, of its own sheet if there are several."""
+    """The idle cells that may belong to a table: typed ones, not on the sheet of another table."""
     formulas = table.evaluator.formulas
     own = [p for p in idle if p not in formulas]
     if len(found) > 1:
-        own = [p for p in own if p[0] == table.sheet]
+        others = {other.sheet for other in found} - {table.sheet}
+        own = [p for p in own if p[0] not in others]
     return own[:500]
 
 
