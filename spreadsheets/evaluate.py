@@ -15,9 +15,17 @@ import re
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
+from operator import add, mul, sub
 from typing import NamedTuple
 
-from spreadsheets.foreign import LAST_COLUMN, LAST_ROW, MAX_FORMULA, Book, Position
+from spreadsheets.foreign import (
+    LAST_COLUMN,
+    LAST_ROW,
+    MAX_FORMULA,
+    MAX_TEXT,
+    Book,
+    Position,
+)
 
 MAX_DEPTH = 64
 """Levels of nesting in a formula, as in Excel."""
@@ -27,6 +35,8 @@ MAX_SIZE = 2_000
 """Operations in one formula, with those of the names that it uses."""
 MAX_CONE = 2_000
 """Formulas that are followed behind a row of a table."""
+MAX_CHAIN = 200
+"""Formulas that read each other, one behind the other, in one evaluation."""
 MAX_FEW = 64
 """Cells of a range that are followed: a lookup of an input in a small list."""
 
@@ -82,8 +92,8 @@ class Area(NamedTuple):
         return sheet == self.sheet and inside
 
 
-Run = Callable[["_Evaluation", int, int], object]
-"""A compiled part of a formula: its value, an `Area` for a reference, at a row and a column."""
+Run = Callable[["Site"], object]
+"""A compiled part of a formula: its value, or an `Area` or a `One` for a reference."""
 
 LiteralKey = tuple[str, int, int, int] | tuple[str, int]
 """A number typed into the formula of a cell, or into a name: which one it is, for replacing it."""
@@ -190,8 +200,10 @@ def shape_key(text: str, row: int, column: int) -> str:
         assert match is not None
         fixed_column, letters, fixed_row, digits = match.groups()
         r, c = int(digits), column_number(letters)
-        return (f"{r}" if fixed_row else f"[{r - row}]") + "," + (
-            f"{c}" if fixed_column else f"[{c - column}]"
+        return (
+            (f"{r}" if fixed_row else f"[{r - row}]")
+            + ","
+            + (f"{c}" if fixed_column else f"[{c - column}]")
         )
 
     def relative(match: re.Match[str]) -> str:
@@ -450,11 +462,11 @@ def parse(text: str, sheet: str, book: Book, key: str) -> Shape:
 
 
 def _constant(value: Scalar) -> Run:
-    return lambda e, row, column: value
+    return lambda _: value
 
 
 def _failing(error: str) -> Run:
-    def run(e: "_Evaluation", row: int, column: int) -> object:
+    def run(_: "Site") -> object:
         raise Fault(error)
 
     return run
@@ -463,10 +475,10 @@ def _failing(error: str) -> Run:
 def _literal(value: float, sheet: str, within: tuple[str, ...], index: int) -> Run:
     name = within[-1] if within else ""
 
-    def run(e: "_Evaluation", row: int, column: int) -> object:
-        if e.literals:
-            key: LiteralKey = (name, index) if name else (sheet, row, column, index)
-            return e.literals.get(key, value)
+    def run(at: "Site") -> object:
+        if at.literals:
+            key: LiteralKey = (name, index) if name else (sheet, at.row, at.column, index)
+            return at.literals.get(key, value)
         return value
 
     return run
@@ -475,11 +487,11 @@ def _literal(value: float, sheet: str, within: tuple[str, ...], index: int) -> R
 def _cell(reference: Reference) -> Run:
     sheet, (row_step, _), (column_step, _), (fixed_row, fixed_column, _, _), _ = reference
 
-    def run(e: "_Evaluation", row: int, column: int) -> object:
+    def run(at: "Site") -> object:
         return One(
             sheet,
-            row_step if fixed_row else (row_step + row - 1) % LAST_ROW + 1,
-            column_step if fixed_column else (column_step + column - 1) % LAST_COLUMN + 1,
+            row_step if fixed_row else (row_step + at.row - 1) % LAST_ROW + 1,
+            column_step if fixed_column else (column_step + at.column - 1) % LAST_COLUMN + 1,
         )
 
     return run
@@ -494,36 +506,38 @@ class One(NamedTuple):
 
 
 def _range(reference: Reference) -> Run:
-    return lambda e, row, column: reference.at(row, column)
+    return lambda at: reference.at(at.row, at.column)
 
 
-def scalar(value: object, e: "_Evaluation", row: int, column: int) -> Scalar:
+def scalar(value: object, at: "Site") -> Scalar:
     """One value: that of a cell, or the cell of a range in the formula's own row or column."""
-    kind = type(value)
-    if kind is float:
-        return value  # type: ignore[return-value]
-    if kind is One:
-        value = e.value(value)  # type: ignore[arg-type]
-    elif kind is Area:
-        _, top, left, bottom, right = value  # type: ignore[misc]
-        if left == right and (top <= row <= bottom or top == bottom):
-            value = e.value((value[0], row if top != bottom else top, left))  # type: ignore[index]
-        elif top == bottom and left <= column <= right:
-            value = e.value((value[0], top, column))  # type: ignore[index]
-        else:
-            raise Fault("#VALUE!")
+    if isinstance(value, One):
+        value = at.value(value)
+    elif isinstance(value, Area):
+        value = at.value(_crossing(value, at))
     if type(value) is Error:
         raise Fault(value)
-    return value  # type: ignore[return-value]
+    return value  # type: ignore[return-value]  # what is no reference is a scalar
+
+
+def _crossing(area: Area, at: "Site") -> Position:
+    """The cell of a row or column that stands for it at a site."""
+    sheet, top, left, bottom, right = area
+    if top == bottom and left == right:
+        return sheet, top, left
+    if left == right and top <= at.row <= bottom:
+        return sheet, at.row, left
+    if top == bottom and left <= at.column <= right:
+        return sheet, top, at.column
+    raise Fault("#VALUE!")
 
 
 _NUMBER = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?\s*(%?)\s*")
 
 
-def number(value: object, e: "_Evaluation", row: int, column: int) -> float:
+def number(given: object, at: "Site") -> float:
     """One number, as arithmetic takes it: a blank is 0, a text of digits the number."""
-    if type(value) is not float:
-        value = scalar(value, e, row, column)
+    value = given if type(given) is float else scalar(given, at)
     if type(value) is float:
         return value
     if value is None:
@@ -557,45 +571,36 @@ def power(base: float, exponent: float) -> float:
 
 
 def _negative(run: Run) -> Run:
-    return lambda e, row, column: -number(run(e, row, column), e, row, column)
+    return lambda at: -number(run(at), at)
 
 
 def _binary(sign: str, left: Run, right: Run) -> Run:
     if sign == "&":
-        return lambda e, row, column: (
-            as_text(scalar(left(e, row, column), e, row, column))
-            + as_text(scalar(right(e, row, column), e, row, column))
-        )[:32_767]
-    if sign in ("=", "<>", "<", ">", "<=", ">="):
-        return lambda e, row, column: compared(
-            sign,
-            scalar(left(e, row, column), e, row, column),
-            scalar(right(e, row, column), e, row, column),
-        )
+        return lambda at: _joined(scalar(left(at), at), scalar(right(at), at))
+    if sign in _MEETS:
+        return lambda at: compared(sign, scalar(left(at), at), scalar(right(at), at))
+    function = _ARITHMETIC[sign]
 
-    def run(e: "_Evaluation", row: int, column: int) -> object:
-        a, b = left(e, row, column), right(e, row, column)
-        if type(a) is not float:
-            a = number(a, e, row, column)
-        if type(b) is not float:
-            b = number(b, e, row, column)
-        if sign == "*":
-            result = a * b
-        elif sign == "+":
-            result = a + b
-        elif sign == "-":
-            result = a - b
-        elif sign == "/":
-            if b == 0:
-                raise Fault("#DIV/0!")
-            result = a / b
-        else:
-            return power(a, b)
+    def run(at: "Site") -> object:
+        result = function(number(left(at), at), number(right(at), at))
         if result - result != 0:
             raise Fault("#NUM!")
         return result
 
     return run
+
+
+def _joined(left: Scalar, right: Scalar) -> str:
+    return (as_text(left) + as_text(right))[:MAX_TEXT]
+
+
+def _divided(a: float, b: float) -> float:
+    if b == 0:
+        raise Fault("#DIV/0!")
+    return a / b
+
+
+_ARITHMETIC = {"+": add, "-": sub, "*": mul, "/": _divided, "^": power}
 
 
 def as_text(value: Scalar) -> str:
@@ -617,33 +622,32 @@ def _order(value: Scalar) -> tuple[int, float | str]:
 
 def compared(sign: str, left: Scalar, right: Scalar) -> bool:
     """Compare two values; numbers that agree to fifteen digits are equal, as in spreadsheets."""
-    if left is None or right is None:
-        blank = {str: "", bool: False}
-        left = blank.get(type(right), 0.0) if left is None else left
-        right = blank.get(type(left), 0.0) if right is None else right
-    a, b = _order(left), _order(right)
-    equal = a == b
-    if a[0] == b[0] == 0 and not equal:
-        equal = math.isclose(a[1], b[1], rel_tol=1e-15)  # type: ignore[arg-type]
-    match sign:
-        case "=":
-            return equal
-        case "<>":
-            return not equal
-        case "<":
-            return a < b and not equal  # type: ignore[operator]
-        case ">":
-            return a > b and not equal  # type: ignore[operator]
-        case "<=":
-            return a < b or equal  # type: ignore[operator]
-    return a > b or equal  # type: ignore[operator]
+    blank: dict[type, Scalar] = {str: "", bool: False}
+    left = blank.get(type(right), 0.0) if left is None else left
+    right = blank.get(type(left), 0.0) if right is None else right
+    (kind, a), (other, b) = _order(left), _order(right)
+    order = (kind > other) - (kind < other)
+    if not order and isinstance(a, float) and isinstance(b, float):
+        order = 0 if math.isclose(a, b, rel_tol=1e-15) else (a > b) - (a < b)
+    elif not order:
+        order = (str(a) > str(b)) - (str(a) < str(b))
+    return order in _MEETS[sign]
+
+
+_MEETS = {"=": (0,), "<>": (-1, 1), "<": (-1,), ">": (1,), "<=": (-1, 0), ">=": (0, 1)}
+"""For each sign of comparison how the left value may stand to the right one."""
 
 
 # ---- evaluation
 
 
-class _Evaluation:
-    """One evaluation: values already known, and what is to be replaced."""
+class Site:
+    """Where a formula is evaluated, and with what: values already known, and what is replaced.
+
+    `affected` are the formulas that are evaluated again; None in the first evaluation of all.
+    """
+
+    __slots__ = ("affected", "column", "depth", "evaluator", "known", "literals", "row")
 
     def __init__(
         self,
@@ -654,26 +658,26 @@ class _Evaluation:
     ) -> None:
         self.evaluator, self.known, self.literals = evaluator, known, literals
         self.affected = affected
-        self.depth = 0
+        self.row = self.column = self.depth = 0
 
     def value(self, place: Position) -> Scalar:
         """The value of a cell."""
-        known = self.known
-        if place in known:
-            return known[place]
-        values = self.evaluator.values
-        if self.affected is None:  # the first evaluation of all cells
-            if place in self.evaluator.pending:
+        if place in self.known:
+            return self.known[place]
+        evaluator = self.evaluator
+        if self.affected is None:
+            if place in evaluator.pending:
                 raise NotComputed("it reads itself, or a formula that needs it")
-            return values.get(place)
+            return evaluator.values.get(place)
         if place not in self.affected:
-            return values.get(place)
-        self.depth += 1
-        if self.depth > 400:
+            return evaluator.values.get(place)
+        if self.depth > MAX_CHAIN:
             raise NotComputed("it is computed through too many cells")
-        result = self.evaluator.computed(place, self)
+        own = self.row, self.column
+        self.depth += 1
+        result = self.known[place] = evaluator.computed(place, self)
         self.depth -= 1
-        known[place] = result
+        self.row, self.column = own
         return result
 
     def spend(self, cells: int) -> None:
@@ -713,7 +717,7 @@ class Evaluator:
             self._by_sheet.setdefault(sheet, {})[row, column] = None
         self._finished: set[Area] = set()
         self.aggregates: dict[tuple[str, Area], float] = {}
-        first = _Evaluation(self, {}, {}, None)
+        first = Site(self, {}, {}, None)
         for place in self.formulas:
             if place in self.pending:
                 self._finish(place, first)
@@ -768,7 +772,7 @@ class Evaluator:
                 else:
                     yield from (p for p in used.places() if p in self.pending)
 
-    def _finish(self, place: Position, first: _Evaluation) -> None:
+    def _finish(self, place: Position, first: Site) -> None:
         """Evaluate a formula, and before it those that it reads."""
         stack = [(place, self._waiting(place))]
         started = {place}
@@ -788,27 +792,28 @@ class Evaluator:
             if value is not None:
                 self.values[current] = value
 
-    def computed(self, place: Position, e: _Evaluation) -> Scalar:
+    def computed(self, place: Position, at: Site) -> Scalar:
         """The value of the formula of a cell; the stored one if it is not computed here."""
         shape, stored = self.formulas[place], self.book[place]
         reason = self.reasons.get(place) or shape.reason
         if reason is None and shape.run is not None:
             try:
-                return self.evaluated(shape, place, e)
+                return self.evaluated(shape, place, at)
             except NotComputed as error:
                 reason = str(error)
             except RecursionError:
                 reason = "it is computed through too many cells"
-        if e.affected is None:
+        if at.affected is None:
             self.reasons[place] = reason or ""
         return Error(stored.value) if stored.error and stored.value else stored.value
 
     @staticmethod
-    def evaluated(shape: Shape, place: Position, e: _Evaluation) -> Scalar:
+    def evaluated(shape: Shape, place: Position, at: Site) -> Scalar:
         """The value of a shape at a place; what is blank becomes 0, as in spreadsheets."""
         assert shape.run is not None
+        at.row, at.column = place[1:]
         try:
-            value = scalar(shape.run(e, place[1], place[2]), e, place[1], place[2])
+            value = scalar(shape.run(at), at)
         except Fault as fault:
             return fault.error
         except (OverflowError, ValueError, ZeroDivisionError):
@@ -831,17 +836,17 @@ class Evaluator:
         itself; all others keep their values. `shape` takes the place of the cell's own formula.
         None stands for a blank cell, and for a formula that cannot be computed.
         """
-        e = _Evaluation(self, dict(cells), literals or {}, within)
+        at = Site(self, dict(cells), literals or {}, within)
         if shape is None:
             if place in cells or place not in self.formulas:
-                return e.value(place)
+                return at.value(place)
             if place in self.reasons:
                 return self.values.get(place)
             shape = self.formulas[place]
         if shape.run is None:
             return None
         try:
-            return self.evaluated(shape, place, e)
+            return self.evaluated(shape, place, at)
         except (NotComputed, RecursionError):
             return None
 

@@ -15,7 +15,7 @@ from spreadsheets.evaluate import (
     One,
     Run,
     Scalar,
-    _Evaluation,
+    Site,
     compared,
     finite,
     number,
@@ -34,11 +34,11 @@ def area_of(value: object) -> Area | None:
     return value if isinstance(value, Area) else None
 
 
-def cells_of(area: Area, e: _Evaluation) -> Iterator[Scalar]:
+def cells_of(area: Area, at: Site) -> Iterator[Scalar]:
     """The values in the used part of an area, row by row."""
-    used = e.evaluator.used(area)
-    e.spend(used.cells)
-    return (e.value(place) for place in used.places())
+    used = at.evaluator.used(area)
+    at.spend(used.cells)
+    return (at.value(place) for place in used.places())
 
 
 def count_arguments(name: str, arguments: Arguments, least: int, most: int) -> None:
@@ -146,10 +146,10 @@ def _numeric(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, least, most)
     if not arguments:
         constant = function()
-        return lambda e, row, column: constant
+        return lambda _: constant
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        numbers = (0.0 if a is None else number(a(e, row, column), e, row, column)
+    def run(at: Site) -> object:
+        numbers = (0.0 if a is None else number(a(at), at)
                    for a in arguments)  # fmt: skip
         return finite(float(function(*numbers)))
 
@@ -159,16 +159,16 @@ def _numeric(name: str, arguments: Arguments) -> Run:
 # ---- functions of many values
 
 
-def _numbers(name: str, arguments: Arguments, e: _Evaluation, row: int, column: int) -> list[float]:
+def _numbers(name: str, arguments: Arguments, at: Site) -> list[float]:
     """All numbers among the arguments and in their ranges."""
     numbers: list[float] = []
     for argument in arguments:
-        value = 0.0 if argument is None else argument(e, row, column)
+        value = 0.0 if argument is None else argument(at)
         area = area_of(value)
         if area is None:
-            numbers.append(number(value, e, row, column))
+            numbers.append(number(value, at))
             continue
-        for cell in cells_of(area, e):
+        for cell in cells_of(area, at):
             if type(cell) is float:
                 numbers.append(cell)
             elif type(cell) is Error and name != "COUNT":
@@ -229,16 +229,16 @@ def _aggregate(name: str, arguments: Arguments) -> Run:
     function = AGGREGATES[name]
     count_arguments(name, arguments, 1, 255)
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
+    def run(at: Site) -> object:
         first = arguments[0]
-        if len(arguments) == 1 and first is not None and e.affected is None:
-            area = first(e, row, column)
+        if len(arguments) == 1 and first is not None and at.affected is None:
+            area = first(at)
             if isinstance(area, Area):  # often the same range in every row
-                known = e.evaluator.aggregates
+                known = at.evaluator.aggregates
                 if (name, area) not in known:
-                    known[name, area] = finite(function(_numbers(name, arguments, e, row, column)))
+                    known[name, area] = finite(function(_numbers(name, arguments, at)))
                 return known[name, area]
-        return finite(function(_numbers(name, arguments, e, row, column)))
+        return finite(function(_numbers(name, arguments, at)))
 
     return run
 
@@ -246,15 +246,15 @@ def _aggregate(name: str, arguments: Arguments) -> Run:
 def _counting(name: str, arguments: Arguments) -> Run:
     """COUNTA and COUNTBLANK."""
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
+    def run(at: Site) -> object:
         total = 0
         for argument in arguments:
-            value = None if argument is None else argument(e, row, column)
+            value = None if argument is None else argument(at)
             area = area_of(value)
             if area is None:
                 total += name == "COUNTA"
                 continue
-            cells = list(cells_of(area, e))
+            cells = list(cells_of(area, at))
             filled = sum(c is not None for c in cells)
             empty = sum(c is None or c == "" for c in cells)
             beyond = area.cells - len(cells)
@@ -283,21 +283,21 @@ def _if(name: str, arguments: Arguments) -> Run:
     if test is None:
         raise NotComputed("it has an IF without a condition")
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        if truth(scalar(test(e, row, column), e, row, column)):
-            return 0.0 if then is None else then(e, row, column)
+    def run(at: Site) -> object:
+        if truth(scalar(test(at), at)):
+            return 0.0 if then is None else then(at)
         if otherwise is None:
             return 0.0 if rest else False
-        return otherwise(e, row, column)
+        return otherwise(at)
 
     return run
 
 
 def _ifs(name: str, arguments: Arguments) -> Run:
-    def run(e: _Evaluation, row: int, column: int) -> object:
+    def run(at: Site) -> object:
         for test, then in zip(arguments[::2], arguments[1::2], strict=False):
-            if test is not None and truth(scalar(test(e, row, column), e, row, column)):
-                return 0.0 if then is None else then(e, row, column)
+            if test is not None and truth(scalar(test(at), at)):
+                return 0.0 if then is None else then(at)
         raise Fault("#N/A")
 
     return run
@@ -307,31 +307,31 @@ def _iferror(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 1, 2)
     first, second = (*arguments, None)[:2]
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
+    def run(at: Site) -> object:
         try:
-            return None if first is None else scalar(first(e, row, column), e, row, column)
+            return None if first is None else scalar(first(at), at)
         except (Fault, OverflowError, ValueError, ZeroDivisionError) as fault:
             if name == "IFNA" and getattr(fault, "error", "") != "#N/A":
                 raise
-            return 0.0 if second is None else second(e, row, column)
+            return 0.0 if second is None else second(at)
 
     return run
 
 
 def _and_or(name: str, arguments: Arguments) -> Run:
-    def run(e: _Evaluation, row: int, column: int) -> object:
+    def run(at: Site) -> object:
         truths = []
         for argument in arguments:
-            value = None if argument is None else argument(e, row, column)
+            value = None if argument is None else argument(at)
             area = area_of(value)
             if area is not None and area.cells > 1:
-                for cell in cells_of(area, e):
+                for cell in cells_of(area, at):
                     if type(cell) is Error:
                         raise Fault(cell)
                     if isinstance(cell, bool | float):
                         truths.append(bool(cell))
             else:
-                truths.append(truth(scalar(value, e, row, column)))
+                truths.append(truth(scalar(value, at)))
         if not truths:
             raise Fault("#VALUE!")
         return all(truths) if name == "AND" else any(truths)
@@ -343,8 +343,8 @@ def _not(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 1, 1)
     (test,) = arguments
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        return not (test is not None and truth(scalar(test(e, row, column), e, row, column)))
+    def run(at: Site) -> object:
+        return not (test is not None and truth(scalar(test(at), at)))
 
     return run
 
@@ -354,9 +354,9 @@ def _is(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 1, 1)
     (argument,) = arguments
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
+    def run(at: Site) -> object:
         try:
-            value = None if argument is None else scalar(argument(e, row, column), e, row, column)
+            value = None if argument is None else scalar(argument(at), at)
         except Fault as fault:
             return (name == "ISERROR" or (name == "ISNA" and fault.error == "#N/A")
                     or (name == "ISERR" and fault.error != "#N/A"))  # fmt: skip
@@ -377,34 +377,34 @@ def _n(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 1, 1)
     (argument,) = arguments
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        value = None if argument is None else scalar(argument(e, row, column), e, row, column)
+    def run(at: Site) -> object:
+        value = None if argument is None else scalar(argument(at), at)
         return float(value) if isinstance(value, bool | float) else 0.0
 
     return run
 
 
 def _na(name: str, arguments: Arguments) -> Run:
-    def run(e: _Evaluation, row: int, column: int) -> object:
+    def run(at: Site) -> object:
         raise Fault("#N/A")
 
     return run
 
 
 def _truth_value(name: str, arguments: Arguments) -> Run:
-    return lambda e, row, column: name == "TRUE"
+    return lambda at: name == "TRUE"
 
 
 def _choose(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 2, 255)
     index, *choices = arguments
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        n = int(number(index(e, row, column) if index else 0.0, e, row, column))
+    def run(at: Site) -> object:
+        n = int(number(index(at) if index else 0.0, at))
         if not 1 <= n <= len(choices):
             raise Fault("#VALUE!")
         choice = choices[n - 1]
-        return 0.0 if choice is None else choice(e, row, column)
+        return 0.0 if choice is None else choice(at)
 
     return run
 
@@ -416,9 +416,9 @@ def _place(name: str, arguments: Arguments) -> Run:
     """ROW, COLUMN, ROWS and COLUMNS."""
     count_arguments(name, arguments, 0 if name in ("ROW", "COLUMN") else 1, 1)
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
+    def run(at: Site) -> object:
         argument = arguments[0] if arguments else None
-        area = area_of(argument(e, row, column)) if argument else Area("", row, column, row, column)
+        area = area_of(argument(at)) if argument else Area("", at.row, at.column, at.row, at.column)
         if area is None:
             raise Fault("#VALUE!")
         match name:
@@ -433,24 +433,24 @@ def _place(name: str, arguments: Arguments) -> Run:
     return run
 
 
-def _area_argument(argument: Run | None, e: _Evaluation, row: int, column: int) -> Area:
-    area = area_of(argument(e, row, column)) if argument else None
+def _area_argument(argument: Run | None, at: Site) -> Area:
+    area = area_of(argument(at)) if argument else None
     if area is None:
         raise Fault("#VALUE!")
     return area
 
 
-def _whole(argument: Run | None, e: _Evaluation, row: int, column: int, missing: int = 0) -> int:
-    return missing if argument is None else int(number(argument(e, row, column), e, row, column))
+def _whole(argument: Run | None, at: Site, missing: int = 0) -> int:
+    return missing if argument is None else int(number(argument(at), at))
 
 
 def _index(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 2, 3)
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        area = _area_argument(arguments[0], e, row, column)
-        r = _whole(arguments[1], e, row, column)
-        c = _whole(arguments[2], e, row, column) if len(arguments) > 2 else -1
+    def run(at: Site) -> object:
+        area = _area_argument(arguments[0], at)
+        r = _whole(arguments[1], at)
+        c = _whole(arguments[2], at) if len(arguments) > 2 else -1
         if c < 0:
             r, c = (1, r) if area.top == area.bottom else (r, 1 if area.left == area.right else 0)
         height, width = area.bottom - area.top + 1, area.right - area.left + 1
@@ -468,36 +468,36 @@ def _index(name: str, arguments: Arguments) -> Run:
 def _offset(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 3, 5)
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        area = _area_argument(arguments[0], e, row, column)
-        down, right = (_whole(a, e, row, column) for a in arguments[1:3])
+    def run(at: Site) -> object:
+        area = _area_argument(arguments[0], at)
+        down, right = (_whole(a, at) for a in arguments[1:3])
         height, width = area.bottom - area.top + 1, area.right - area.left + 1
         if len(arguments) > 3:
-            height = _whole(arguments[3], e, row, column, height)
+            height = _whole(arguments[3], at, height)
         if len(arguments) > 4:
-            width = _whole(arguments[4], e, row, column, width)
+            width = _whole(arguments[4], at, width)
         top, left = area.top + down, area.left + right
         if top < 1 or left < 1 or height < 1 or width < 1:
             raise Fault("#REF!")
         moved = Area(area.sheet, top, left, top + height - 1, left + width - 1)
-        if e.affected is None and any(p in e.evaluator.pending for p in _some(moved, e)):
+        if at.affected is None and any(p in at.evaluator.pending for p in _some(moved, at)):
             raise NotComputed("it uses OFFSET to read formulas that come later")
         return One(area.sheet, top, left) if moved.cells == 1 else moved
 
     return run
 
 
-def _some(area: Area, e: _Evaluation) -> Iterator[tuple[str, int, int]]:
-    used = e.evaluator.used(area)
-    e.spend(used.cells)
+def _some(area: Area, at: Site) -> Iterator[tuple[str, int, int]]:
+    used = at.evaluator.used(area)
+    at.spend(used.cells)
     return used.places()
 
 
-def _line(area: Area, e: _Evaluation) -> Values:
+def _line(area: Area, at: Site) -> Values:
     """The values of one row or column, as far as the sheet uses it."""
     if area.top != area.bottom and area.left != area.right:
         raise Fault("#N/A")
-    return list(cells_of(area, e))
+    return list(cells_of(area, at))
 
 
 def _at(area: Area, index: int) -> One:
@@ -531,11 +531,11 @@ def _found(wanted: Scalar, values: Values, kind: int) -> int:
 def _match(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 2, 3)
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        wanted = scalar(arguments[0](e, row, column) if arguments[0] else 0.0, e, row, column)
-        area = _area_argument(arguments[1], e, row, column)
-        kind = _whole(arguments[2], e, row, column) if len(arguments) > 2 else 1
-        return float(_found(wanted, _line(area, e), kind) + 1)
+    def run(at: Site) -> object:
+        wanted = scalar(arguments[0](at) if arguments[0] else 0.0, at)
+        area = _area_argument(arguments[1], at)
+        kind = _whole(arguments[2], at) if len(arguments) > 2 else 1
+        return float(_found(wanted, _line(area, at), kind) + 1)
 
     return run
 
@@ -543,11 +543,11 @@ def _match(name: str, arguments: Arguments) -> Run:
 def _lookup(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 2, 3)
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        wanted = scalar(arguments[0](e, row, column) if arguments[0] else 0.0, e, row, column)
-        area = _area_argument(arguments[1], e, row, column)
-        result = _area_argument(arguments[2], e, row, column) if len(arguments) > 2 else area
-        values = _line(area, e)
+    def run(at: Site) -> object:
+        wanted = scalar(arguments[0](at) if arguments[0] else 0.0, at)
+        area = _area_argument(arguments[1], at)
+        result = _area_argument(arguments[2], at) if len(arguments) > 2 else area
+        values = _line(area, at)
         if isinstance(wanted, float):  # sorted or not, the last number not above it
             best = [i for i, v in enumerate(values) if type(v) is float and v <= wanted]
             if not best:
@@ -561,17 +561,17 @@ def _lookup(name: str, arguments: Arguments) -> Run:
 def _vlookup(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 3, 4)
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        wanted = scalar(arguments[0](e, row, column) if arguments[0] else 0.0, e, row, column)
-        area = _area_argument(arguments[1], e, row, column)
-        number_of = _whole(arguments[2], e, row, column)
+    def run(at: Site) -> object:
+        wanted = scalar(arguments[0](at) if arguments[0] else 0.0, at)
+        area = _area_argument(arguments[1], at)
+        number_of = _whole(arguments[2], at)
         near = True
         if len(arguments) > 3:
             last = arguments[3]
-            near = last is not None and truth(scalar(last(e, row, column), e, row, column))
+            near = last is not None and truth(scalar(last(at), at))
         down = name == "VLOOKUP"
         searched = area._replace(right=area.left) if down else area._replace(bottom=area.top)
-        index = _found(wanted, _line(searched, e), int(near))
+        index = _found(wanted, _line(searched, at), int(near))
         if number_of < 1:
             raise Fault("#VALUE!")
         if down:
@@ -612,35 +612,35 @@ def _conditional(name: str, arguments: Arguments) -> Run:
     many = name.endswith("IFS")
     counts = name.startswith("COUNT")
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
+    def run(at: Site) -> object:
         areas: list[Area | None] = []
         rest = list(arguments)
         taken = None
         if many and not counts:
-            taken = _area_argument(rest.pop(0), e, row, column)
+            taken = _area_argument(rest.pop(0), at)
         elif not many and not counts and len(rest) == 3:
-            taken = _area_argument(rest.pop(), e, row, column)
+            taken = _area_argument(rest.pop(), at)
         pairs = list(zip(rest[::2], rest[1::2], strict=False))
         if not pairs:
             raise NotComputed(f"it gives {name} {len(arguments)} arguments")
-        areas = [_area_argument(a, e, row, column) for a, _ in pairs]
-        wanted = [scalar(c(e, row, column) if c else "", e, row, column) for _, c in pairs]
+        areas = [_area_argument(a, at) for a, _ in pairs]
+        wanted = [scalar(c(at) if c else "", at) for _, c in pairs]
         first = areas[0]
         assert first is not None
-        used = e.evaluator.used(first)
+        used = at.evaluator.used(first)
         height, width = used.bottom - used.top + 1, used.right - used.left + 1
-        e.spend(used.cells * (len(pairs) + 1))
+        at.spend(used.cells * (len(pairs) + 1))
         numbers: list[float] = []
         for i in range(height):
             for j in range(width):
                 met = all(
-                    _meets(e.value((a.sheet, a.top + i, a.left + j)), w)
+                    _meets(at.value((a.sheet, a.top + i, a.left + j)), w)
                     for a, w in zip(areas, wanted, strict=True)
                     if a is not None
                 )
                 if met:
                     source = taken or first
-                    value = e.value((source.sheet, source.top + i, source.left + j))
+                    value = at.value((source.sheet, source.top + i, source.left + j))
                     if counts:
                         numbers.append(1.0)
                     elif type(value) is float:
@@ -659,11 +659,11 @@ def _conditional(name: str, arguments: Arguments) -> Run:
 def _sumproduct(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 1, 30)
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        areas = [area_of(a(e, row, column)) if a else None for a in arguments]
+    def run(at: Site) -> object:
+        areas = [area_of(a(at)) if a else None for a in arguments]
         if None in areas:
             raise NotComputed("it uses SUMPRODUCT of more than ranges")
-        columns = [list(cells_of(a, e)) for a in areas if a is not None]
+        columns = [list(cells_of(a, at)) for a in areas if a is not None]
         if len({len(c) for c in columns}) != 1:
             raise Fault("#VALUE!")
         total = 0.0
@@ -681,9 +681,9 @@ def _ranked(name: str, arguments: Arguments) -> Run:
     """LARGE and SMALL."""
     count_arguments(name, arguments, 2, 2)
 
-    def run(e: _Evaluation, row: int, column: int) -> object:
-        numbers = sorted(_numbers(name, arguments[:1], e, row, column), reverse=name == "LARGE")
-        k = _whole(arguments[1], e, row, column)
+    def run(at: Site) -> object:
+        numbers = sorted(_numbers(name, arguments[:1], at), reverse=name == "LARGE")
+        k = _whole(arguments[1], at)
         if not 1 <= k <= len(numbers):
             raise Fault("#NUM!")
         return numbers[k - 1]

@@ -33,7 +33,11 @@ def feeding(table: Table) -> list[Line]:
     for role, line in table.lines.items():
         if role == "time" or line.usual is None:
             continue
-        indices = [i for i in sorted(line.values) if line.evaluator.formulas.get(line.place(i)) is line.usual]
+        indices = [
+            i
+            for i in sorted(line.values)
+            if line.evaluator.formulas.get(line.place(i)) is line.usual
+        ]
         if not indices:
             continue
         cells = behind(line, indices[len(indices) // 2])
@@ -42,7 +46,9 @@ def feeding(table: Table) -> list[Line]:
                 read.add(helper)
                 found.append(helper)
     order = table.evaluator.order
-    return sorted(found, key=lambda o: max((order.get(o.place(i), -1) for i in o.values), default=-1))
+    return sorted(
+        found, key=lambda o: max((order.get(o.place(i), -1) for i in o.values), default=-1)
+    )
 
 
 def predicted(exam: Examination, role: str, k: int) -> float | None:
@@ -174,12 +180,19 @@ def _verdict(
                 same = _same(value, expected, line, exam)
                 if role is None and same and k == 1:
                     return None
-                text = f"a number is typed{would}" + ("; it gives the right value here" if same else "")
+                text = f"a number is typed{would}" + (
+                    "; it gives the right value here" if same else ""
+                )
                 return "typed number", text, expected, value
             return "typed number", f"a text is typed{would}", expected, quoted(value)
         if type(value) is float and role and expected is not None:
             if not _same(value, expected, line, exam):
-                return "typed number", "the number does not follow from the cells before it", expected, value
+                return (
+                    "typed number",
+                    "the number does not follow from the cells before it",
+                    expected,
+                    value,
+                )
             return None
         if type(value) is not float and role and role != "time":
             return "typed number", "the cell holds no number", expected, quoted(value)
@@ -197,7 +210,12 @@ def _verdict(
     if usual is None or not applies or not probe or exam.fitted.probe is None or role == "time":
         if same:
             return None
-        return "odd formula", f"{own} does not give what the rest of the table does", expected, value
+        return (
+            "odd formula",
+            f"{own} does not give what the rest of the table does",
+            expected,
+            value,
+        )
     state, given = _alike(exam, inputs, place, shape, usual, k)
     if same and state and given:
         return None
@@ -234,7 +252,9 @@ def _spread(exam: Examination, line: Line, expected: float) -> float:
         spread += 4 * speed.rounding(abs(exam.fitted.six.V))
         if "deceleration" in table.lines:
             brake = table.lines["deceleration"]
-            spread += abs(exam.fitted.six.e) * 2 * brake.rounding(max(map(abs, brake.values.values())))
+            spread += (
+                abs(exam.fitted.six.e) * 2 * brake.rounding(max(map(abs, brake.values.values())))
+            )
     if role == "depth":
         spread += 2 * line.rounding(max(map(abs, line.values.values())))
     if role == "deceleration":
@@ -271,5 +291,3 @@ def _alike(
         return type(own) is type(want)
 
     return same(state), same({**state, **given}) or not same(state)
-
-

@@ -200,12 +200,13 @@ def _stop_velocity(
     A cell without a known label is it if the last row is the first one below its number, in the
     unit of the column or in SI units; in any unit if no unit of a velocity is stated.
     """
-    if "stop_velocity" in exam.inputs:
-        return exam.inputs["stop_velocity"].si
+    labelled = exam.inputs.get("stop_velocity")
+    if labelled is not None and exam.firm_speed:
+        return labelled.si
     last, before = speeds[max(speeds)], speeds.get(max(speeds) - 1, math.inf)
     if last < 1.0 <= before:
         return 1.0
-    taken = {entry.place for entry in exam.inputs.values()}
+    taken = {e.place for role, e in exam.inputs.items() if role != "stop_velocity"}
     for place in (*sorted(exam.read), *idle):
         value = exam.table.evaluator.values.get(place)
         if type(value) is float and place not in taken and value > 0:

@@ -75,7 +75,11 @@ class Examination:
             if entry.place is not None or entry.how == "follows"
         }  # fmt: skip
         density, strength = known.get("target_density"), known.get("resistance")
-        D = 2 * known["radius"] * 10.0 ** -self.units.get("depth", 0.0) if "radius" in known else None
+        D = (
+            2 * known["radius"] * 10.0 ** -self.units.get("depth", 0.0)
+            if "radius" in known
+            else None
+        )
         start = "velocity_initial" if "velocity_initial" in self.table.lines else "velocity_final"
         ratio = None
         if density and strength:

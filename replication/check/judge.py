@@ -59,7 +59,7 @@ def examine(
     exam.units = {role: inputs.powers.get(("column", role), 0.0) for role in table.lines}
     sizes = [inputs.cells[role].item for role in ("radius", "diameter") if role in inputs.cells]
     exam.firm = any(item in inputs.stated for item in (("column", "depth"), *sizes))
-    speeds = [("column", role) for role in ("velocity_initial", "velocity_final")]
+    speeds: list[Item] = [("column", role) for role in ("velocity_initial", "velocity_final")]
     speeds += [inputs.cells["velocity"].item] if "velocity" in inputs.cells else []
     exam.firm_speed = any(item in inputs.stated for item in speeds)
     refuse_other_model(exam, inputs, found, slack)
@@ -256,7 +256,9 @@ def _wrong_force(
 ) -> None:
     """Report a force that has not the numbers that the inputs give."""
     way = exam.fitted.ways.get("deceleration", REPORT["deceleration"])
-    parts = [name for name in _PARTS if name in broken and not (name == "D" and "diameter" in broken)]
+    parts = [
+        name for name in _PARTS if name in broken and not (name == "D" and "diameter" in broken)
+    ]
     if not parts or (way is not REPORT["deceleration"] and not exam.fitted.centered):
         return
     both = {"G", "H"} <= broken.keys() and math.isclose(times["G"], times["H"], rel_tol=1e-8)
@@ -335,9 +337,13 @@ def _wrong_unit(exam: Examination, inputs: Inputs, item: Item, stated: float) ->
         text = f"{title(role)} is {times_too(-power)}: a unit is not converted"
         exam.add("unit", [source.place], source.value * 10.0**power, text)
         return
-    text = f"{title(role)} is {source.value:.10g} without a unit, but the formulas take it in {shown}"
+    text = (
+        f"{title(role)} is {source.value:.10g} without a unit, but the formulas take it in {shown}"
+    )
     if unit is not None:
-        text = f"the label gives {title(role)} in {unit}, but the formulas take the number in {shown}"
+        text = (
+            f"the label gives {title(role)} in {unit}, but the formulas take the number in {shown}"
+        )
     exam.add("unit", [source.place], shown, text, unit)
 
 

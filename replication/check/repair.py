@@ -69,9 +69,7 @@ def _meant(
     for _, row, column in cells:
         area = ref.at(row, column)
         read.append((area.sheet, area.top, area.left))
-    numbers = sum(
-        type(evaluator.values.get(p)) is float or p in evaluator.formulas for p in read
-    )
+    numbers = sum(type(evaluator.values.get(p)) is float or p in evaluator.formulas for p in read)
     blank = len(read) - numbers
     sheet, row, column = read[0]
     before = (sheet, row, column - 1) if across else (sheet, row - 1, column)

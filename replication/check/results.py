@@ -61,7 +61,13 @@ def results(exams: Sequence[Examination], evaluator: Evaluator) -> Iterator[Resu
         areas = evaluator.areas(place)
         for exam, cells in depths:
             direct = [a for a in areas if a.cells > 1 and any(map(a.covers, list(cells)[-1:]))]
-            single = [cells[p] for a in areas if a.cells == 1 for p in [(a.sheet, a.top, a.left)] if p in cells]
+            single = [
+                cells[p]
+                for a in areas
+                if a.cells == 1
+                for p in [(a.sheet, a.top, a.left)]
+                if p in cells
+            ]
             through = [known[p] for a in areas if a.cells == 1 for p in [(a.sheet, a.top, a.left)]
                        if p in known and known[p].exam is exam]  # fmt: skip
             if direct or len(single) == 1 or through:
@@ -134,7 +140,12 @@ def _fault(
             text = f"{what} reads row {result.k} of the table, not {last}, its last"
             return "odd formula", address(cell, cell[0] != result.place[0]), text
         return None
-    if result.over_diameter and result.power == 0 and named == "ratio" and not _DIAMETER.search(label):
+    if (
+        result.over_diameter
+        and result.power == 0
+        and named == "ratio"
+        and not _DIAMETER.search(label)
+    ):
         return "odd formula", None, "the number is the depth over the diameter, not over the radius"
     if result.over_diameter:
         return None

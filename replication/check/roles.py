@@ -204,7 +204,9 @@ def cell_names(evaluator: Evaluator) -> dict[Position, str]:
 # ---- sources
 
 
-def trace(table: Table, fitted: Fit) -> tuple[dict[Position, bool], dict[LiteralKey, tuple[float, Position | None]]]:
+def trace(
+    table: Table, fitted: Fit
+) -> tuple[dict[Position, bool], dict[LiteralKey, tuple[float, Position | None]]]:
     """The cells outside the lines that the table rests on, and the numbers typed into formulas.
 
     Of each cell it is said whether it is computed; of each number, which cell holds it.
@@ -316,7 +318,6 @@ def recognize(
     evaluator = table.evaluator
     inputs = Inputs(sources(table, fitted))
     roles_by_label: dict[Position, frozenset[str]] = {}
-    roles_by_label: dict[Position, frozenset[str]] = {}
     for source in inputs.sources:
         if source.place is not None and source.literal is None:
             _label(source.place, evaluator, names, inputs, roles_by_label)
@@ -419,10 +420,18 @@ def _assign(
         for source in cells:
             put(inputs.cells, _size(source, own(source), inputs, fitted), source)
         for source in made:
-            if _rests_on(source, inputs.cells.get("radius"), evaluator) or "diameter" in own(source):
+            if _rests_on(source, inputs.cells.get("radius"), evaluator) or "diameter" in own(
+                source
+            ):
                 if _is_alias(source, cells):
                     continue
-                put(inputs.derived, "diameter" if "radius" in inputs.cells else _size(source, own(source), inputs, fitted), source)
+                put(
+                    inputs.derived,
+                    "diameter"
+                    if "radius" in inputs.cells
+                    else _size(source, own(source), inputs, fitted),
+                    source,
+                )
             elif not cells:
                 put(inputs.derived, _size(source, own(source), inputs, fitted), source)
         return
@@ -465,9 +474,7 @@ def _assign(
                 put(inputs.derived, "resistance", source)
 
 
-def _without_effect(
-    made: Sequence[Source], inputs: Inputs, evaluator: Evaluator
-) -> list[Source]:
+def _without_effect(made: Sequence[Source], inputs: Inputs, evaluator: Evaluator) -> list[Source]:
     """The typed cell that a formula for the resistance reads without any effect: in a sum, say.
 
     Where a product of beta and flow stress was meant, a beta that is added vanishes.
@@ -543,7 +550,9 @@ class Equation:
 def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
     """The equations between the six numbers and the cells that can be written down."""
     six = fitted.six
-    X, W, A, T = (("column", role) for role in ("depth", start_of_row(table)[0], "deceleration", "time"))
+    X, W, A, T = (
+        ("column", role) for role in ("depth", start_of_row(table)[0], "deceleration", "time")
+    )
     found: list[Equation] = []
 
     def log(value: float) -> float | None:
@@ -601,7 +610,10 @@ def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
         add("D", [(X, 1), (unit(diameter), -1)], D, minus(log(diameter.value)))
     elif D is not None:
         radius_terms, radius_rest = [(X, 1)], D - math.log10(2)
-    mass, density = (inputs.cells.get("mass") or inputs.derived.get("mass")), inputs.cells.get("particle_density")
+    mass, density = (
+        (inputs.cells.get("mass") or inputs.derived.get("mass")),
+        inputs.cells.get("particle_density"),
+    )
     mass_terms: list[tuple[Item, float]] | None = None
     mass_rest: float | None = None
     if density is not None and radius_terms is not None and radius_rest is not None:
@@ -609,7 +621,12 @@ def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
         mass_rest = math.log10(4 / 3 * math.pi) + 3 * radius_rest + (log(density.value) or 0.0)
     if mass is not None:
         if mass_terms is not None and mass_rest is not None:
-            add("mass", [(unit(mass), 1), *((i, -n) for i, n in mass_terms)], log(mass.value), -mass_rest)
+            add(
+                "mass",
+                [(unit(mass), 1), *((i, -n) for i, n in mass_terms)],
+                log(mass.value),
+                -mass_rest,
+            )
         mass_terms, mass_rest = [(unit(mass), 1)], log(mass.value)
     target = inputs.cells.get("target_density") or inputs.derived.get("target_density")
     a = [(A, 1.0), (X, -2.0)] if has_brake else [(W, 2.0), (X, -3.0)]

@@ -302,8 +302,15 @@ def _probed(table: Table, probe: Probe) -> Fit:
         else:
             ways["velocity_final"] = None
 
-        def force(x: State, u: State, given: Mapping[Position, Scalar], numbers: Mapping[LiteralKey, float]) -> Force:
-            return lambda depth, speed: sign * probe.value(place, {x: depth, u: speed}, given, numbers)
+        def force(
+            x: State,
+            u: State,
+            given: Mapping[Position, Scalar],
+            numbers: Mapping[LiteralKey, float],
+        ) -> Force:
+            return lambda depth, speed: (
+                sign * probe.value(place, {x: depth, u: speed}, given, numbers)
+            )
 
         read, brakes = probe.answers(place), "deceleration"
     else:
@@ -314,10 +321,15 @@ def _probed(table: Table, probe: Probe) -> Fit:
                        _time_step(table, probe), 1.0, ways, brakes, start, probe=probe)  # fmt: skip
         place = falls
 
-        def force(x: State, u: State, given: Mapping[Position, Scalar], numbers: Mapping[LiteralKey, float]) -> Force:
+        def force(
+            x: State,
+            u: State,
+            given: Mapping[Position, Scalar],
+            numbers: Mapping[LiteralKey, float],
+        ) -> Force:
             return lambda depth, speed: (
-                speed - probe.value(place, {x: depth, u: speed}, given, numbers)
-            ) / e
+                (speed - probe.value(place, {x: depth, u: speed}, given, numbers)) / e
+            )
 
         read = own
     x, u = _depth_of(read), _velocity_of(read, start)
@@ -338,7 +350,9 @@ def _probed(table: Table, probe: Probe) -> Fit:
         way = None
     ways["deceleration"] = way
     six = Six(*numbers, c, e, _first_speed(table))
-    return Fit(six, _time_step(table, probe), sign, ways, brakes, start, (x, u or start), centered, probe)
+    return Fit(
+        six, _time_step(table, probe), sign, ways, brakes, start, (x, u or start), centered, probe
+    )
 
 
 def _typical_sign(line: Line) -> float:
@@ -486,7 +500,9 @@ def _is_polynomial(force: Force, grid: list[list[float]], x: float, u: float) ->
     return True
 
 
-def _force(force: Force, table: Table, e: float) -> tuple[tuple[float, float, float], Variant | None, bool]:
+def _force(
+    force: Force, table: Table, e: float
+) -> tuple[tuple[float, float, float], Variant | None, bool]:
     """G, H and D of a force, its variant, and whether the drag is centered."""
     nan = (math.nan, math.nan, math.nan)
     small = abs(table.number("depth", 1) or table.number("depth", 2) or 1e-9) / 20
@@ -506,9 +522,9 @@ def _force(force: Force, table: Table, e: float) -> tuple[tuple[float, float, fl
         return (math.nan, math.nan, diameter), None, False
     if math.isfinite(e):
         D = D if D > 0 and math.isfinite(D) else 40 * small
-        numbers = centered_numbers(force, 0.1 * D, abs(_first_speed(table)) / 3, e / 2)
-        if numbers is not None and _is_centered(force, numbers, e / 2, table):
-            return numbers, VARIANTS["centered"], True
+        middle = centered_numbers(force, 0.1 * D, abs(_first_speed(table)) / 3, e / 2)
+        if middle is not None and _is_centered(force, middle, e / 2, table):
+            return middle, VARIANTS["centered"], True
     return nan, None, False
 
 
@@ -555,7 +571,10 @@ def centered_numbers(
         G, H = drag[1] / area, rest[1] / area
         if not all(math.isfinite(value) for value in (G, H)):
             return None
-        if not h or (turn and all(math.isclose(p, q, rel_tol=1e-15) for p, q in zip(last, (G, H, D), strict=True))):
+        if not h or (
+            turn
+            and all(math.isclose(p, q, rel_tol=1e-15) for p, q in zip(last, (G, H, D), strict=True))
+        ):
             break
         for i, s in enumerate(xs):
             for j, t in enumerate(us):
@@ -579,9 +598,7 @@ def _named_force(
 ) -> tuple[tuple[float, float, float], Variant | None]:
     """G, H and D of a polynomial force, and its variant by the terms that it has."""
     largest = max(abs(value) for row in grid for value in row)
-    terms = {
-        (i, j) for i in range(3) for j in range(3) if abs(grid[i][j]) > 1e-8 * largest
-    }
+    terms = {(i, j) for i in range(3) for j in range(3) if abs(grid[i][j]) > 1e-8 * largest}
     drag = grid[2] if (2, 1) in terms or (2, 2) in terms or (2, 0) in terms else grid[1]
     power = 2 if drag is grid[2] else 1
     G, H = -drag[2] / (u**power * x * x), -grid[0][2] / (x * x)
@@ -648,7 +665,9 @@ def numbers_with(
         D, speed = fitted.six.D, abs(fitted.six.V) / 3
         if fitted.six.G > 0 and fitted.six.H > 0 and not fitted.centered:
             speed = 0.5 * math.sqrt(fitted.six.H / fitted.six.G)
-        span = 0.1 * D if 0 < D < math.inf else abs(table.number("depth", min(3, table.steps)) or 1.0)
+        span = (
+            0.1 * D if 0 < D < math.inf else abs(table.number("depth", min(3, table.steps)) or 1.0)
+        )
         h = fitted.sign * fitted.six.e / 2 if fitted.centered else 0.0
         h = abs(h)
         numbers = centered_numbers(force, span, speed, h)
@@ -765,7 +784,9 @@ def fit_numbers(table: Table) -> Fit:
     slack = _slack(table)
     if len(forces) * -math.log10(slack) > 20:  # few rows of few digits do not tell
         G, H, D = _least_squares([(x, u, a / divisor) for x, u, a in forces])
-    ways: dict[str, Variant | None] = {role: REPORT[role] for role in ("depth", "deceleration", "velocity_final")}
+    ways: dict[str, Variant | None] = {
+        role: REPORT[role] for role in ("depth", "deceleration", "velocity_final")
+    }
     six = Six(G, H, D, c, sign * e if falls else c, _first_speed(table))
     step = None
     if "time" in table.lines:
@@ -782,7 +803,11 @@ def _slack(table: Table) -> float:
     worst = 1e-9
     for role, line in table.lines.items():
         if role != "time":
-            middle = median(abs(v) for v in line.values.values() if v) if any(line.values.values()) else 1.0
+            middle = (
+                median(abs(v) for v in line.values.values() if v)
+                if any(line.values.values())
+                else 1.0
+            )
             worst = max(worst, line.rounding(middle) / middle)
     return min(0.05, 4 * worst)
 
@@ -875,7 +900,9 @@ def _without_outliers(
     """The rows whose deviation from a fit is not far above the usual one."""
     off = _misses(data, six)
     usual = median(off)
-    kept = [row for row, deviation in zip(data, off, strict=True) if deviation <= 20 * usual + 1e-13]
+    kept = [
+        row for row, deviation in zip(data, off, strict=True) if deviation <= 20 * usual + 1e-13
+    ]
     return kept if len(kept) >= max(4, 0.7 * len(data)) else data
 
 

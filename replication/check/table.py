@@ -124,7 +124,9 @@ class Line:
         """Whether the unit stands in brackets, after "in", or in a cell of its own."""
         for text in self.texts[:2]:
             if is_unit(text) or unit_in(text):
-                return bool(is_unit(text) or re.search(r"[\[(].+[\])]|\bin \S+$| / |/\S+$|, ", text))
+                return bool(
+                    is_unit(text) or re.search(r"[\[(].+[\])]|\bin \S+$| / |/\S+$|, ", text)
+                )
         return False
 
     @cached_property
@@ -472,7 +474,7 @@ def _support(speed: Line, c: float, known: Sequence[Line]) -> float:
     """How well other numbers support a velocity: one repeats it, or it falls by one times c."""
     others = [line for line in known if line is not speed]
     repeated = any(repeats(speed, line) > 0.5 or repeats(line, speed) > 0.5 for line in others)
-    falls = [("velocity_initial", None), ("velocity_final", None)]
+    falls: list[tuple[str, Line | None]] = [("velocity_initial", None), ("velocity_final", None)]
     falls += [("velocity_initial", line) for line in others if repeats(speed, line) > 0.5]
     falls += [("velocity_initial", speed) for line in others if repeats(line, speed) > 0.5]
     for role, end in falls:
@@ -586,8 +588,7 @@ def _single(role: str, depth: Line, speed: Line, others: Sequence[Line]) -> str:
 
 
 def _is_ahead(speed: Line, depth: Line) -> bool:
-    """Whether the velocity of a row is computed from the depth of the same row, not the one before.
-    """
+    """Whether the velocity of a row is computed from the depth of the same row, not the one before."""
     if not speed.computed:
         return True
     index = _typical(speed)
@@ -608,7 +609,9 @@ def _completed(
         o for o in known
         if o not in taken and len(o.values.keys() & depth.values.keys()) >= len(depth.values) / 2
     ]  # fmt: skip
-    if "deceleration" not in roles and (brake := _brake(_falls(speed, both, role), others, c, both or speed)):
+    if "deceleration" not in roles and (
+        brake := _brake(_falls(speed, both, role), others, c, both or speed)
+    ):
         roles["deceleration"] = brake
     if "time" not in roles and (time := _time(others, c, depth.number, set(roles.values()))):
         roles["time"] = time
@@ -630,7 +633,9 @@ def _completed(
 
 def _within(line: Line, indices: Sequence[int]) -> Line:
     """The part of a line that belongs to some rows."""
-    return replace(line, values={i: v for i, v in line.values.items() if indices[0] <= i <= indices[-1]})
+    return replace(
+        line, values={i: v for i, v in line.values.items() if indices[0] <= i <= indices[-1]}
+    )
 
 
 def _of_table(indices: list[int], depth: Line, speed: Line) -> list[int]:
@@ -764,7 +769,11 @@ def _given(evaluator: Evaluator, given: Mapping[str, Line], beside: Sequence[Lin
         if lag and _is_ahead(speed, roles["depth"]):
             roles["velocity_final"] = roles.pop("velocity_initial")
     for o in beside:
-        if "velocity_initial" in roles and "velocity_final" not in roles and repeats(speed, o) > 0.5:
+        if (
+            "velocity_initial" in roles
+            and "velocity_final" not in roles
+            and repeats(speed, o) > 0.5
+        ):
             roles["velocity_final"] = o
     c, _ = grows_by(roles["depth"], speed, int("velocity_initial" not in roles), _LOOSE)
     if not c:

@@ -175,7 +175,9 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         off = next((round(p) for p in powers if abs(p - round(p)) < 1e-9), 0)
         is_slip = off % 3 == 0 or off % 2 == 0  # a unit ten times another one is unusual
         if off and is_slip and len(others) == 1 and len(typed) - 1 >= _ALIKE:
-            text = f"the formulas take {title(role)} as {quantity(entry.si, role)}, {times_too(off)}"
+            text = (
+                f"the formulas take {title(role)} as {quantity(entry.si, role)}, {times_too(off)}"
+            )
             exam.add("unit", [entry.place], entry.value / 10.0**off, text)
             exam.corrected = (role, entry.si / 10.0**off)
             continue

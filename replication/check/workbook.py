@@ -99,7 +99,11 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
     others: list[str] = []
     for table in found:
         try:
-            exams.append(examine(table, names, cells, _beside(table, idle, found), _typed_numbers(table, found)))
+            exams.append(
+                examine(
+                    table, names, cells, _beside(table, idle, found), _typed_numbers(table, found)
+                )
+            )
         except AnotherModel as error:
             others.append(str(error))
     if not exams:
@@ -115,7 +119,10 @@ def _without_values(book: Book) -> Book:
     return replace(
         book,
         sheets={
-            name: {at: c._replace(value=None, error=False) if c.formula else c for at, c in cells.items()}
+            name: {
+                at: c._replace(value=None, error=False) if c.formula else c
+                for at, c in cells.items()
+            }
             for name, cells in book.sheets.items()
         },
     )
@@ -143,7 +150,11 @@ def _collected(
     beside = [
         *_texts(evaluator, exams, texts),
         *_stale(evaluator, exams),
-        *(n.unmet(exams[0]) for n in numbers if not n.met and (n.typed or not _faulty(exams, n.place))),
+        *(
+            n.unmet(exams[0])
+            for n in numbers
+            if not n.met and (n.typed or not _faulty(exams, n.place))
+        ),
         *_uncalculated(evaluator),
         *_without_numbers(evaluator, exams),
     ]
@@ -241,7 +252,9 @@ def _texts(
         if place in read or any(e.place == place for exam in exams for e in exam.inputs.values()):
             says = "a number stored as text: not every program calculates with it"
             value = evaluator.values.get(place)
-            yield Difference("typed number", (place,), value, repr(text), says, exams[0].rank(place))
+            yield Difference(
+                "typed number", (place,), value, repr(text), says, exams[0].rank(place)
+            )
 
 
 # ---- what the tables do not read
@@ -312,7 +325,9 @@ def _mapped(
         if name in INPUTS and area.cells == 1 and name not in columns:
             cells[name] = (area.sheet, area.top, area.left)
             if type(evaluator.values.get(cells[name])) is not float:
-                raise ValueError(f"--map {name}: the cell {address(cells[name], True)} holds no number")
+                raise ValueError(
+                    f"--map {name}: the cell {address(cells[name], True)} holds no number"
+                )
         elif name in _LINES and (area.top == area.bottom or area.left == area.right):
             columns[name] = _named_line(name, where, area, evaluator)
         else:
@@ -371,7 +386,9 @@ def _nothing(evaluator: Evaluator) -> str:
     typed = sum(any(map(str.isdigit, t)) and not any(map(str.isalpha, t)) for t in texts)
     if typed > max(100, len(evaluator.formulas)):
         return f"{nothing}; {typed:,} cells hold numbers as text: convert them to numbers"
-    wrong = [p for p in evaluator.formulas if isinstance(values.get(p), Error) and values[p] != "#N/A"]
+    wrong = [
+        p for p in evaluator.formulas if isinstance(values.get(p), Error) and values[p] != "#N/A"
+    ]
     first = min(wrong, key=lambda p: evaluator.order.get(p, 0), default=None)
     instead = sorted(_labelled_texts(evaluator))
     for place in instead:
@@ -436,7 +453,9 @@ def _without_numbers(evaluator: Evaluator, exams: Sequence[Examination]) -> Iter
 
 def _stale(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Difference]:
     """Report stored values that differ from what their formulas give."""
-    shapes: dict[Position, object] = {place: evaluator.formulas[place] for place in stale(evaluator)}
+    shapes: dict[Position, object] = {
+        place: evaluator.formulas[place] for place in stale(evaluator)
+    }
     for run in runs(shapes, exams[0].table.across):
         stored, value = evaluator.book[run[0]].value, evaluator.values.get(run[0])
         ranks = [exam.rank(run[0]) for exam in exams]
