@@ -5,11 +5,12 @@ own row. So a wrong cell is found where it stands, and the rows that follow from
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 
 from replication.check.examination import Examination
+from replication.check.fit import Probe
 from replication.check.roles import Inputs
-from replication.check.six import EXACT, Probe, start_of_row
+from replication.check.six import EXACT, start_of_row
 from replication.check.table import Line, Table, behind, runs
 from replication.check.words import title
 from replication.reading import quoted

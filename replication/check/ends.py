@@ -5,8 +5,9 @@ from collections.abc import Mapping, Sequence
 
 from replication.check.cells import formula_at, predicted
 from replication.check.examination import NO_FAULT, Examination, near
-from replication.check.roles import Inputs, Source, first_speed, is_plain
-from replication.check.six import VARIANTS, end_of_row, is_bounded, run
+from replication.check.fit import is_bounded
+from replication.check.roles import Inputs, Source, is_plain
+from replication.check.six import VARIANTS, end_of_row, first_speed, run
 from replication.check.table import address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import input_roles, times_too, title
@@ -158,7 +159,7 @@ def _beyond_radius(exam: Examination) -> None:
     accused = {d.place for d in exam.differences if d.kind != "stale value"}
     if exam.right_depth <= six.D / 2 or accused.intersection(cells):
         return
-    if not is_bounded(exam.fitted, table):
+    if not is_bounded(exam.fitted):
         deep = {k for k in table.rows if (table.number("depth", k) or 0.0) > exam.fitted.six.D / 2}
         blamed = [cell for cell in cells if table.places[cell][1] in deep]
         way = VARIANTS["area beyond the radius"]

@@ -6,8 +6,9 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from replication.check import difference
+from replication.check.fit import Fit, RightForce
 from replication.check.roles import Input
-from replication.check.six import Fit, RightForce, Six
+from replication.check.six import Six
 from replication.check.table import Table
 from replication.check.words import COLUMNS
 from spreadsheets.foreign import Position, Value

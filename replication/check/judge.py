@@ -8,6 +8,7 @@ from replication.check.cells import feeding, formula_at, odd_cells
 from replication.check.constants import typed_constants
 from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import Examination, near
+from replication.check.fit import is_part
 from replication.check.model import refuse_other_model
 from replication.check.roles import (
     CLOSE,
@@ -15,13 +16,13 @@ from replication.check.roles import (
     Inputs,
     Item,
     equations,
-    first_speed,
     mended,
     recognize,
     state_units,
     unit_power,
 )
-from replication.check.six import REPORT, VARIANTS, end_of_row, fit, is_part, start_of_row
+from replication.check.rows import fit_table
+from replication.check.six import REPORT, VARIANTS, end_of_row, first_speed, start_of_row
 from replication.check.table import Table, address
 from replication.check.taken import compare_with_report, intend, report_inputs, take_inputs
 from replication.check.words import times_too, title, unit_text
@@ -42,7 +43,7 @@ def examine(
     `names` are the names of cells, `given` the cells of inputs that the user named, `idle` numbers
     that no table reads, `typed` all typed numbers beside the table.
     """
-    exam = Examination(table, fit(table))
+    exam = Examination(table, fit_table(table))
     inputs = recognize(table, exam.fitted, given, names, idle)
     exam.read = frozenset(s.cell for s in inputs.sources if s.cell)
     state_units(table, inputs)
@@ -138,7 +139,7 @@ def _first_wrong(exam: Examination, off: float | None = None) -> list[Position]:
     `off` is the ratio of the wrong force to the right one, if it is known.
     """
     fitted, table = exam.fitted, exam.table
-    if fitted.probe is None or fitted.force_of is None:
+    if fitted.probe is None or fitted.force is None:
         return []
     index = table.rows[fitted.probe.k]
     for line in feeding(table):

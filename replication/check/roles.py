@@ -13,11 +13,12 @@ differ by a power of ten, a unit is to blame; the one statement is sought that m
 
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
 
 from reference.units import same_dimension, to_si
-from replication.check.six import Fit, numbers_with, start_of_row
+from replication.check.fit import Fit, numbers_with
+from replication.check.six import first_speed, start_of_row
 from replication.check.table import Table
 from replication.check.words import COLUMNS, INPUTS, input_roles, is_unit, unit_in
 from spreadsheets.evaluate import Evaluator, LiteralKey, Scalar
@@ -256,14 +257,6 @@ def is_plain(value: float) -> bool:
         return True
     power = math.log10(abs(value)) if value else 0.0
     return abs(power - round(power)) < 1e-12
-
-
-def first_speed(table: Table) -> Position | None:
-    """The cell of the velocity at the impact that rows start from."""
-    for role, k in (("velocity_initial", 1), ("velocity_final", 0), ("velocity_initial", 0)):
-        if table.number(role, k) is not None:
-            return table.place(role, k)
-    return None
 
 
 def sources(table: Table, fitted: Fit) -> list[Source]:

@@ -9,7 +9,7 @@ from xml.etree import ElementTree as ET
 
 from reference.units import written
 from replication import page
-from replication.check.examination import KINDS, NO_FAULT, Difference, Examination
+from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.table import address
 from replication.check.words import COLUMNS, INPUTS, count, unit_text
 from replication.check.workbook import Check

@@ -14,7 +14,7 @@ from replication.check.repair import Slipped, mended, slipped
 from replication.check.results import PrintedCell, judge_results, printed_cells
 from replication.check.roles import cell_names, label_of
 from replication.check.stale import stale
-from replication.check.table import LEAST, Line, Table, address, lines, runs, tables
+from replication.check.table import LEAST, Line, Table, address, runs, tables
 from replication.check.words import (
     COLUMNS,
     INPUTS,
