@@ -79,6 +79,11 @@ class Area(NamedTuple):
         """How many cells it has."""
         return (self.bottom - self.top + 1) * (self.right - self.left + 1)
 
+    @property
+    def corner(self) -> Position:
+        """The first cell."""
+        return self.sheet, self.top, self.left
+
     def places(self) -> Iterator[Position]:
         """All its cells, row by row."""
         for row in range(self.top, self.bottom + 1):

@@ -5,7 +5,8 @@ from collections.abc import Mapping, Sequence
 
 from replication.check.cells import formula_at
 from replication.check.examination import Examination
-from replication.check.roles import FAMILIES, Inputs, Source, is_plain
+from replication.check.responses import FAMILIES, Source, is_plain
+from replication.check.roles import Inputs
 from replication.check.table import address
 from replication.check.words import input_roles, title
 from spreadsheets.evaluate import Scalar

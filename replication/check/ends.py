@@ -6,7 +6,8 @@ from collections.abc import Mapping, Sequence
 from replication.check.cells import formula_at, predicted
 from replication.check.examination import NO_FAULT, Examination, near
 from replication.check.fit import is_bounded
-from replication.check.roles import Inputs, Source, is_plain
+from replication.check.responses import Source, is_plain
+from replication.check.roles import Inputs
 from replication.check.six import VARIANTS, end_of_row, first_speed, run
 from replication.check.table import address
 from replication.check.taken import case_of, report_inputs

@@ -10,21 +10,13 @@ from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import Examination, near
 from replication.check.fit import is_part
 from replication.check.model import refuse_other_model
-from replication.check.roles import (
-    CLOSE,
-    Equation,
-    Inputs,
-    Item,
-    equations,
-    mended,
-    recognize,
-    state_units,
-    unit_power,
-)
+from replication.check.responses import Item
+from replication.check.roles import CLOSE, Inputs, recognize
 from replication.check.rows import fit_table
 from replication.check.six import REPORT, VARIANTS, end_of_row, first_speed, start_of_row
 from replication.check.table import Table, address
 from replication.check.taken import compare_with_report, intend, report_inputs, take_inputs
+from replication.check.units import Equation, Quantity, equations, mended, state_units, unit_power
 from replication.check.words import times_too, title, unit_text
 from spreadsheets.foreign import Position
 
@@ -192,7 +184,7 @@ def _without_unit(
             off = rest - math.log10(ratio)
             if not broken[eq.name] and abs(off - round(off)) <= max(slack, 1e-8):
                 broken[eq.name] = slip
-                mendable.append(replace(eq, rest=eq.rest - math.log10(ratio)))
+                mendable.append(replace(eq, ratio=eq.ratio * Quantity(-math.log10(ratio))))
     return broken, mendable
 
 

@@ -5,10 +5,12 @@ from collections.abc import Sequence
 
 from replication.check.cells import formula_at, predicted
 from replication.check.examination import Examination
-from replication.check.roles import FAMILIES, Equation, Inputs
+from replication.check.responses import FAMILIES
+from replication.check.roles import Inputs
 from replication.check.six import REPORT, end_of_row, start_of_row
 from replication.check.table import address
 from replication.check.taken import report_inputs
+from replication.check.units import Equation
 from replication.check.words import input_roles
 
 _LEAST_KNOWN = 3

@@ -10,7 +10,7 @@ from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
 from replication.check.ends import OTHER_STOP
 from replication.check.examination import NO_FAULT, Difference, Examination, near
-from replication.check.roles import label_of
+from replication.check.labels import label_of
 from replication.check.table import address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import number_in, result_of, times_too, unit_text

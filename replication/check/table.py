@@ -15,6 +15,7 @@ from itertools import groupby, pairwise
 from statistics import median
 
 from replication.check.difference import span
+from replication.check.labels import is_sure
 from replication.check.words import column_roles, digits_of, is_unit, power_of_ten, unit_in
 from spreadsheets.evaluate import Evaluator, Shape, column_letters
 from spreadsheets.foreign import Position
@@ -119,15 +120,11 @@ class Line:
                 return self.place(index)
         return None
 
-    @cached_property
+    @property
     def sure(self) -> bool:
         """Whether the unit stands in brackets, after "in", or in a cell of its own."""
-        for text in self.texts[:2]:
-            if is_unit(text) or unit_in(text):
-                return bool(
-                    is_unit(text) or re.search(r"[\[(].+[\])]|\bin \S+$| / |/\S+$|, ", text)
-                )
-        return False
+        stated = (text for text in self.texts[:2] if is_unit(text) or unit_in(text))
+        return any(map(is_sure, stated))
 
     @cached_property
     def roles(self) -> frozenset[str]:

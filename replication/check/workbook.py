@@ -9,10 +9,10 @@ from typing import Any
 from reference.units import same_dimension
 from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.judge import examine
+from replication.check.labels import cell_names, label_of
 from replication.check.model import AnotherModel
 from replication.check.repair import Slipped, mended, slipped
 from replication.check.results import PrintedCell, judge_results, printed_cells
-from replication.check.roles import cell_names, label_of
 from replication.check.stale import stale
 from replication.check.table import LEAST, Line, Table, address, runs, tables
 from replication.check.words import (
