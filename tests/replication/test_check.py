@@ -19,6 +19,7 @@ from pages import HTML, sound
 from running import coldspray
 from workbooks import usable
 
+from reference.scheme import Scheme
 from replication.audit.record import Record
 from replication.cases import BETA_5
 from replication.check.diff import KINDS as KINDS_OF_DIFF
@@ -39,7 +40,7 @@ def written(f: Foreign, folder: Path) -> Path:
     return writers.with_openpyxl(f, folder / f"{f.name}.xlsx")
 
 
-@pytest.mark.parametrize(("scheme", "brake"), [*zip(midpoint.SCHEMES, BRAKES, strict=False)])
+@pytest.mark.parametrize(("scheme", "brake"), [*zip(Scheme, BRAKES, strict=False)])
 def test_the_rules_give_the_sheet_double_for_double(scheme: str, brake: Rule) -> None:
     impact = replace(BETA_5, velocity=812.3, radius=7.3e-6)  # it ends beyond the radius
     run = march(Case(**impact.motion, step=impact.step), REPORT | {"brake": brake})
