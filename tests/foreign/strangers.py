@@ -287,7 +287,11 @@ def slips(plan: Plan) -> list[Slip]:
     roles = [role for role in (START, DEPTH, BRAKE, END) if role in plan.columns]
     for name in ("typed", "typed, right digits", "stale", "stale, slightly"):
         found.append(Slip(name, r.choice(roles), r.randrange(3, n - 1)))
-    found += [Slip("no half step", DEPTH, 1), Slip("explicit Euler", DEPTH), Slip("centered", BRAKE)]
+    found += [
+        Slip("no half step", DEPTH, 1),
+        Slip("explicit Euler", DEPTH),
+        Slip("centered", BRAKE),
+    ]
     readers = [(given, column) for given in plan.given for column in _readers(plan, given)]
     for row in (r.randrange(3, n - 1), None):
         given, column = r.choice(readers)
@@ -568,7 +572,10 @@ class _Builder:
             at = (sheet, row, column)
             self.touched[name] = {at}
             label = (sheet, row - 1, column) if plan.flat else (sheet, row, column - 1)
-            words, unit = self.word(name), "" if plan.unit_beside_input == "none" else self.unit(name)
+            words, unit = (
+                self.word(name),
+                "" if plan.unit_beside_input == "none" else self.unit(name),
+            )
             if name in derived:
                 unit = unit and UNITS[name][0].name
             if words and unit and (plan.unit_beside_input == "label" or plan.flat):
@@ -769,7 +776,9 @@ class _Builder:
             case "velocity_initial":
                 return own
             case "velocity_final":
-                return own if self.plan.velocities == "end" or self.plan.style["first"] % 3 else None
+                return (
+                    own if self.plan.velocities == "end" or self.plan.style["first"] % 3 else None
+                )
             case "deceleration":
                 return None if blank else 0.0
             case "ratio":
@@ -897,7 +906,9 @@ class _Builder:
             half, by = "", ""
         if self._wrong("another number", k):
             half, by = "0.6*", "/3"
-        drag = (f"{half}{rho}*{v}^{power}", f"{rho}*{v}^{power}{by}")[self.plan.style["pressure"] % 4 // 2]
+        drag = (f"{half}{rho}*{v}^{power}", f"{rho}*{v}^{power}{by}")[
+            self.plan.style["pressure"] % 4 // 2
+        ]
         if self._wrong("no resistance", k):
             return drag
         R_t = self.resistance(column, k)
@@ -1035,5 +1046,3 @@ def _times(power: int, way: int) -> str:
         f"*0.{'0' * (-power - 1)}1" if power < 0 else f"/0.{'0' * (power - 1)}1",
     )
     return ways[way % 4]
-
-
