@@ -6,13 +6,12 @@ does it: references without $ move with the row.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache
 
 from foreign import writers
 from foreign.drawn import drawn
-from foreign.layouts import BY_HAND, Content, Foreign, Place, calculated, insert, made, move, place
+from foreign.byhand import BY_HAND, made
+from foreign.layouts import Content, Foreign, Place, calculated, filled, insert, move, place
 from foreign.truth import Truth
-from openpyxl.formula.translate import Translator
 from openpyxl.utils.cell import range_boundaries
 
 from replication.cases import BETA_5
@@ -130,11 +129,9 @@ def _area(f: Foreign, area: str) -> list[Place]:
     return [(sheet, r, c) for c in range(left, right + 1) for r in range(top, bottom + 1)]
 
 
-@cache
-def _moved(formula: Content, down: int) -> Content:
-    if not isinstance(formula, str) or not formula.startswith("="):
-        return formula
-    return Translator(formula, origin="A999").translate_formula(f"A{999 + down}")
+def _moved(content: Content, down: int) -> Content:
+    """A content as it is filled down; only formulas change."""
+    return filled(content, down) if isinstance(content, str) and content[:1] == "=" else content
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from dataclasses import dataclass, field, replace
 
 from foreign import writers
 from foreign.layouts import BRAKE, DEPTH, END, START, TIME, Foreign, Place, letters
+from foreign.truth import CLEAN, EITHER, Truth, full
 from foreign.vocabulary import FOREIGN, KNOWN, syllables
 
 from replication.models.impact import Impact, particle_mass
@@ -240,24 +241,7 @@ class Slip:
     given: str = ""
 
 
-@dataclass(frozen=True)
-class Truth:
-    """What is true of a workbook: the exit status; of a fault, kinds and cells that name it.
-
-    More than one kind only where the manual lets a fault be called by two; more than one cell where
-    a fault is in several, or is the disagreement of several.
-    """
-
-    status: int = 0
-    kinds: tuple[str, ...] = ()
-    cells: frozenset[Place] = frozenset()
-
-
-CLEAN = Truth()
-OTHER_MODEL = Truth(2)
-
 ODD, TYPED, SCHEME = ("odd formula",), ("typed number",), ("other scheme",)
-EITHER = ("odd formula", "other scheme")
 
 IN_A_ROW = (
     ("plus x²", "area"), ("no x²", "area"), ("radius for diameter", "area"),
@@ -985,8 +969,8 @@ class _Builder:
         if slip is None:
             return CLEAN
 
-        def column(name: str, *rows: int) -> frozenset[Place]:
-            return frozenset(self.at(name, k) for k in rows)
+        def column(name: str, *rows: int) -> tuple[str, ...]:
+            return tuple(full(self.at(name, k)) for k in rows)
 
         match slip.name:
             case "typed" | "typed, right digits":
@@ -1005,17 +989,17 @@ class _Builder:
             case "centered":
                 return Truth(1, SCHEME, column(BRAKE, 1, 2, 3))
             case "mass: 3.14":
-                return Truth(1, ("typed constant",), frozenset({self.cell_of["mass"]}))
+                return Truth(1, ("typed constant",), (full(self.cell_of["mass"]),))
             case "label" | "conversion":
-                return Truth(1, ("unit",), frozenset(self.touched[slip.given]))
+                return Truth(1, ("unit",), tuple(map(full, self.touched[slip.given])))
             case "head":
-                return Truth(1, ("unit",), frozenset(self.touched[slip.column]))
+                return Truth(1, ("unit",), tuple(map(full, self.touched[slip.column])))
             case "result of the row before":
-                return Truth(1, ODD, frozenset({results["depth"]}))
+                return Truth(1, ODD, (full(results["depth"]),))
             case "result over the diameter":
-                return Truth(1, ODD, frozenset({results["ratio"]}))
+                return Truth(1, ODD, (full(results["ratio"]),))
         if slip.column in self.cell_of and slip.row is None and slip.column not in self.line:
-            return Truth(1, ODD, frozenset({self.cell_of[slip.column]}))
+            return Truth(1, ODD, (full(self.cell_of[slip.column]),))
         if slip.row is not None:
             return Truth(1, ODD, column(slip.column, slip.row))
         return Truth(1, OF_A_COLUMN[slip.name], column(slip.column, 1, 2, 3))
