@@ -22,37 +22,88 @@ from replication.models.impact import Impact
 HELPERS = {"area": "A(x)", "energy": "E_kin", "n": "n"}
 
 HEADS = {
-    "time": (('t', ''), ('Time', ''), ('time', '()'), ('Zeit', '[]'), ('temps', '()'), ('t', '[]'), ('t', '/'), ('Zeit', '')),
-    "velocity_initial": (('v_i', ''), ('dx/dt initial', ''), ('initial velocity', '()'), ('Anfangsgeschwindigkeit', '[]'), ('vitesse initiale', '()'), ('v alt', ''), ('speed at start', ','), ('v_start', '[]')),
-    "depth": (('x', ''), ('depth', '()'), ('Eindringtiefe', '[]'), ('profondeur de pénétration', '()'), ('penetration', ''), ('x', 'in'), ('Tiefe', ''), ('enfoncement', '[]')),
-    "deceleration": (('a', ''), ('d²x/dt²', ''), ('deceleration', '()'), ('Verzögerung', '[]'), ('décélération', '()'), ('Bremsung', ''), ('acceleration', ''), ('a', '[]')),
-    "velocity_final": (('v_f', ''), ('dx/dt final', ''), ('final velocity', '()'), ('Endgeschwindigkeit', '[]'), ('vitesse finale', '()'), ('v neu', ''), ('speed at end', ','), ('v_end', '[]')),
+    "time": (
+        ("t", ""),
+        ("Time", ""),
+        ("time", "()"),
+        ("Zeit", "[]"),
+        ("temps", "()"),
+        ("t", "[]"),
+        ("t", "/"),
+        ("Zeit", ""),
+    ),
+    "velocity_initial": (
+        ("v_i", ""),
+        ("dx/dt initial", ""),
+        ("initial velocity", "()"),
+        ("Anfangsgeschwindigkeit", "[]"),
+        ("vitesse initiale", "()"),
+        ("v alt", ""),
+        ("speed at start", ","),
+        ("v_start", "[]"),
+    ),
+    "depth": (
+        ("x", ""),
+        ("depth", "()"),
+        ("Eindringtiefe", "[]"),
+        ("profondeur de pénétration", "()"),
+        ("penetration", ""),
+        ("x", "in"),
+        ("Tiefe", ""),
+        ("enfoncement", "[]"),
+    ),
+    "deceleration": (
+        ("a", ""),
+        ("d²x/dt²", ""),
+        ("deceleration", "()"),
+        ("Verzögerung", "[]"),
+        ("décélération", "()"),
+        ("Bremsung", ""),
+        ("acceleration", ""),
+        ("a", "[]"),
+    ),
+    "velocity_final": (
+        ("v_f", ""),
+        ("dx/dt final", ""),
+        ("final velocity", "()"),
+        ("Endgeschwindigkeit", "[]"),
+        ("vitesse finale", "()"),
+        ("v neu", ""),
+        ("speed at end", ","),
+        ("v_end", "[]"),
+    ),
 }
 """Words, and how a unit follows them."""
 
 UNITS = {
-    "time": (('s', ''), ('ns', '1000000000'), ('µs', '1000000')),
-    "depth": (('m', ''), ('µm', '1000000'), ('mm', '1000'), ('nm', '1000000000')),
-    "deceleration": (('m/s²', ''), ('m/s^2', ''), ('km/s2', '0.001')),
+    "time": (("s", ""), ("ns", "1000000000"), ("µs", "1000000")),
+    "depth": (("m", ""), ("µm", "1000000"), ("mm", "1000"), ("nm", "1000000000")),
+    "deceleration": (("m/s²", ""), ("m/s^2", ""), ("km/s2", "0.001")),
 }
 """Units of columns, each with the factor that brings a number in SI into it."""
 
 LABELS = {
-    "radius": ('R', 'particle radius', 'Radius', 'rayon', 'R_p', 'Partikelradius'),
-    "particle_density": ('density of particle', 'rho_p', 'Dichte Kupfer', 'masse volumique Cu', 'ρp'),
-    "target_density": ('density of target', 'rho_t', 'Dichte Stahl', 'masse volumique cible', 'ρt'),
-    "velocity": ('V', 'impact velocity', 'Auftreffgeschwindigkeit', "vitesse d'impact", 'v0'),
-    "resistance": ('R_t', 'target resistance', 'Zielwiderstand', 'résistance de la cible', 'Rt'),
-    "step": ('dt', 'time step', 'Zeitschritt', 'pas de temps', 'Δt'),
+    "radius": ("R", "particle radius", "Radius", "rayon", "R_p", "Partikelradius"),
+    "particle_density": (
+        "density of particle",
+        "rho_p",
+        "Dichte Kupfer",
+        "masse volumique Cu",
+        "ρp",
+    ),
+    "target_density": ("density of target", "rho_t", "Dichte Stahl", "masse volumique cible", "ρt"),
+    "velocity": ("V", "impact velocity", "Auftreffgeschwindigkeit", "vitesse d'impact", "v0"),
+    "resistance": ("R_t", "target resistance", "Zielwiderstand", "résistance de la cible", "Rt"),
+    "step": ("dt", "time step", "Zeitschritt", "pas de temps", "Δt"),
 }
 
 INPUT_UNITS = {
-    "radius": (('m', ''), ('µm', '*0.000001'), ('mm', '/1000')),
-    "particle_density": (('kg/m³', ''), ('g/cm³', '*1000'), ('kg/m3', '')),
-    "target_density": (('kg/m³', ''), ('g/cm³', '*1000'), ('kg/m3', '')),
-    "velocity": (('m/s', ''), ('km/s', '*1000')),
-    "resistance": (('Pa', ''), ('GPa', '*1000000000'), ('MPa', '*1000000')),
-    "step": (('s', ''), ('ns', '/1000000000'), ('ps', '/1000000000000')),
+    "radius": (("m", ""), ("µm", "*0.000001"), ("mm", "/1000")),
+    "particle_density": (("kg/m³", ""), ("g/cm³", "*1000"), ("kg/m3", "")),
+    "target_density": (("kg/m³", ""), ("g/cm³", "*1000"), ("kg/m3", "")),
+    "velocity": (("m/s", ""), ("km/s", "*1000")),
+    "resistance": (("Pa", ""), ("GPa", "*1000000000"), ("MPa", "*1000000")),
+    "step": (("s", ""), ("ns", "/1000000000"), ("ps", "/1000000000000")),
 }
 """Units of inputs, each with what brings its number into SI."""
 
@@ -97,7 +148,9 @@ def drawn(seed: int, impact: Impact) -> Foreign:
     negative = r.random() < 0.2
     for name, line in lines.items():
         rows = [
-            _contents(lines, across, units, si, own(table.zero + k), own(table.zero + k - 1), negative)
+            _contents(
+                lines, across, units, si, own(table.zero + k), own(table.zero + k - 1), negative
+            )
             for k, own in ((k, letters if across else str) for k in (0, 1, 2))
         ]
         zero, first_, rest = (row[name][min(k, len(row[name]) - 1)] for k, row in enumerate(rows))

@@ -8,8 +8,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 from foreign import writers
-from foreign.drawn import drawn
 from foreign.byhand import BY_HAND, made
+from foreign.drawn import drawn
 from foreign.layouts import Content, Foreign, Place, calculated, filled, insert, move, place
 from foreign.truth import Truth
 from openpyxl.utils.cell import range_boundaries

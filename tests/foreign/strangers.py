@@ -10,7 +10,7 @@ Nothing here is shared with the program under test, except that it is its scheme
 import copy
 import math
 import random
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 from foreign import writers

@@ -113,7 +113,9 @@ CASES = (
         fault("stale value", "D60"),
         stored={"D60": 7.660299301158559e-06},
     ),
-    case("a final depth of seven digits", fault("stale value", "D60"), stored={"D60": 7.660297e-06}),
+    case(
+        "a final depth of seven digits", fault("stale value", "D60"), stored={"D60": 7.660297e-06}
+    ),
     case("what rounding leaves of a velocity", CLEAN, stored={"F60": 0.9703721912500904}),
     case(
         "more than rounding leaves of a velocity",
