@@ -190,7 +190,7 @@ def one_velocity(f: Foreign) -> None:
 
 
 def side_by_side(f: Foreign) -> None:
-    """Both betas on one sheet, each with its own table and resistance; the impact's is the left one."""
+    """Both betas on one sheet, each with its own table; the impact's is the left one."""
     page = Page(f, "beta 3 and 5")
     page.row("A1", "R (m)", Input("radius"))
     page.row("A2", "D (m)", "=2*B1")
@@ -276,7 +276,11 @@ def pasted(f: Foreign) -> None:
 
 
 def natural_units(f: Foreign) -> None:
-    """Micrometres, nanoseconds and km/s = µm/ns throughout, so that formulas need no factors: with the mass in pg = 1e-15 kg pg/(µm ns²) = 1e9 Pa, so GPa fit, too, and densities in pg/µm³ are those in g/cm³."""
+    """Micrometres, nanoseconds and km/s = µm/ns throughout, so that formulas need no factors.
+
+    With the mass in pg = 1e-15 kg pg/(µm ns²) = 1e9 Pa, so GPa fit, too, and densities in pg/µm³
+    are those in g/cm³.
+    """
     f.si = False
     page = Page(f, "µm-ns")
     page.row("A1", "R [µm]", Input("radius", 1e6))

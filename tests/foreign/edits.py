@@ -78,7 +78,7 @@ def rows(area: str, content: Callable[[int], Content], *, every: int = 1) -> Edi
 
 
 def numbers(area: str, role: str, form: str = "", *, every: int = 1) -> Edit:
-    """Type the scheme's own numbers of a column, as if pasted; row 8 of a plain sheet is the impact."""
+    """Paste the scheme's own numbers of a column; row 8 of a plain sheet is the impact."""
 
     def edit(f: Foreign) -> None:
         steps = calculated(f.impact).rows

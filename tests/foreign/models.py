@@ -1,11 +1,11 @@
-"""Tables of other models, with depths, velocities, masses and radii of their own: none is the scheme.
+"""Tables of other models, with depths, velocities, masses of their own: none is the scheme.
 
 To each of them the right answer is status 2: another model, or no table of depth and velocity.
 """
 
 from collections.abc import Callable
 
-from foreign.layouts import Foreign, Page, Table
+from foreign.layouts import Foreign, Page, Table, filled
 
 from replication.cases import BETA_5
 
@@ -124,13 +124,8 @@ def bullet() -> Foreign:
     t.column("A", "time", "", 0.0, "=A9+$B$6")
     t.column("B", "velocity", "", "=B3", "=B9-D9*$B$6")
     t.column("C", "range", "", 0.0, "=C9+B10*$B$6")
-    t.column(
-        "D",
-        "decel",
-        "",
-        "=$B$4*$B$5*PI()*$B$1^2/8*B9^2/$B$2",
-        "=$B$4*$B$5*PI()*$B$1^2/8*B10^2/$B$2",
-    )
+    drag = "=$B$4*$B$5*PI()*$B$1^2/8*B9^2/$B$2"
+    t.column("D", "decel", "", drag, filled(drag, 1))
     return f
 
 
@@ -238,13 +233,8 @@ def closed_form() -> Foreign:
     _inputs(page, ("rho_p", 8900.0), ("rho_t", 7850.0), ("R_t", 3.5e9), ("R", 11e-6))
     t = _table(f, "Sheet1", 8, 40)
     t.column("A", "V", "", 300.0, "=A8+10")
-    t.column(
-        "B",
-        "X",
-        "",
-        "=$B$4*$B$1/$B$2*LN(1+$B$2*A8^2/2/$B$3)",
-        "=$B$4*$B$1/$B$2*LN(1+$B$2*A9^2/2/$B$3)",
-    )
+    depth = "=$B$4*$B$1/$B$2*LN(1+$B$2*A8^2/2/$B$3)"
+    t.column("B", "X", "", depth, filled(depth, 1))
     t.column("C", "X/R", "", "=B8/$B$4", "=B9/$B$4")
     return f
 

@@ -82,7 +82,7 @@ def both() -> Iterator[Foreign]:
 
 
 def some_layouts() -> Iterator[Foreign]:
-    """The layouts in which every fault is planted: by hand, of the report's case, and a few drawn."""
+    """The layouts in which faults are planted: by hand, of the report's case, and a few drawn."""
     return itertools.chain((made(layout, BETA_5) for layout in BY_HAND), drawn_layouts(DRAWN[:6]))
 
 
@@ -195,7 +195,10 @@ def measured(books: Iterable[Known], folder: Path) -> Tally:
     return tally
 
 
-RIGHT = "| right workbooks | number | clean (95 % interval) | accused | no verdict |\n|---|---|---|---|---|"
+RIGHT = (
+    "| right workbooks | number | clean (95 % interval) | accused | no verdict |\n"
+    "|---|---|---|---|---|"
+)
 FAULTY = (
     "| faults in | number | placed (95 % interval) | and named | other cell | called clean | "
     "no verdict |\n|---|---|---|---|---|---|---|"
@@ -210,8 +213,9 @@ def right_row(name: str, tally: Tally) -> str:
 
 def faulty_row(name: str, tally: Tally) -> str:
     counts = tally.counts
+    silent = counts["not checked"] + counts["traceback"]
     return (f"| {name} | {tally.total} | {tally.share('right', 'misnamed')} | {counts['right']} "
-            f"| {counts['misplaced']} | {counts['missed']} | {counts['not checked'] + counts['traceback']} |")  # fmt: skip
+            f"| {counts['misplaced']} | {counts['missed']} | {silent} |")  # fmt: skip
 
 
 WRITERS = ("like Excel", "LibreOffice .xlsx", "LibreOffice .ods", "LibreOffice .xls")

@@ -1,4 +1,4 @@
-"""Workbooks of strangers: right sheets of the scheme, laid out in ways that nobody tuned a program to.
+"""Workbooks of strangers: right sheets of the scheme in layouts that nobody tuned a program to.
 
 `draw` draws a plan from a seed: inputs over decades, their units, words (known, of other languages,
 random letters, none), places, columns, and how each formula is written. `build` makes the workbook
@@ -10,7 +10,7 @@ Nothing here is shared with the program under test, except that it is its scheme
 import copy
 import math
 import random
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from foreign import writers
@@ -241,7 +241,7 @@ class Slip:
     given: str = ""
 
 
-ODD, TYPED, SCHEME = ("odd formula",), ("typed number",), ("other scheme",)
+ODD, SCHEME, UNIT = ("odd formula",), ("other scheme",), ("unit",)
 
 IN_A_ROW = (
     ("plus x²", "area"), ("no x²", "area"), ("radius for diameter", "area"),
@@ -259,6 +259,26 @@ OF_A_COLUMN = {
     "twice": EITHER, "no pi": EITHER, "half a step": EITHER, "minus": EITHER, "plus": EITHER,
 }  # fmt: skip
 """Those that somebody makes in all rows, and how they may then be called."""
+
+
+KINDS = {
+    "typed": ("typed number",), "typed, right digits": ("typed number",),
+    "stale": ("stale value",), "stale, slightly": ("stale value",),
+    "typed constant": ("typed constant",), "mass: 3.14": ("typed constant",),
+    "no half step": SCHEME, "explicit Euler": SCHEME, "centered": SCHEME,
+    "label": UNIT, "conversion": UNIT, "head": UNIT,
+}  # fmt: skip
+"""What slips are called that are no odd formulas."""
+
+ROWS = {"typed constant": (1, 2), "explicit Euler": (2, 3)}
+"""The first rows in which some slips in a column can be seen; others in one of the first three."""
+
+
+def kinds(slip: Slip) -> tuple[str, ...]:
+    """What a slip is called."""
+    if slip.row is None and slip.name in OF_A_COLUMN:
+        return OF_A_COLUMN[slip.name]
+    return KINDS.get(slip.name, ODD)
 
 
 def slips(plan: Plan) -> list[Slip]:
@@ -319,32 +339,35 @@ def _possible(plan: Plan, slip: Slip) -> bool:
     """Whether the workbook can have the fault, and enough stands in it to call that a fault."""
     if plan.digits is not None:
         return slip.name == "typed"
-    stated = plan.unit_beside_input != "none" and plan.unit_of_column != "none"
-    power = plan.units[slip.given].power if slip.given else 0
+    if slip.name in ("label", "head", "conversion"):
+        return _unit_possible(plan, slip)
+    if slip.name in ("centered", "explicit Euler", "column beside"):
+        return plan.velocities == "both" and BRAKE in plan.columns
+    if slip.name.startswith("mass: "):
+        return plan.mass == "cell"
+    if slip.name.startswith("result"):
+        return _result(plan)
     match slip.name:
-        case "centered":
-            return plan.velocities == "both" and BRAKE in plan.columns
-        case "explicit Euler" | "column beside":
-            return plan.velocities == "both" and BRAKE in plan.columns
         case "lost $":
             return plan.references == "absolute" and plan.inputs_at != "sheet"
-        case "mass: no third" | "mass: square" | "mass: 3.14":
-            return plan.mass == "cell"
         case "diameter the radius":
             return _diameter_cell(plan)
         case "resistance a sum":
             return _resistance_cell(plan)
-        case "label":
-            named = slip.given not in ("beta", "stop_velocity") and power is not None
-            return stated and named and not plan.converted and plan.words != "none"
-        case "head":
-            return stated and plan.words != "none"
-        case "conversion":
-            named = slip.given not in ("beta", "stop_velocity") and not plan.flat
-            return plan.converted and stated and named and power not in (0, None)
-        case "result of the row before" | "result over the diameter":
-            return _result(plan)
     return True
+
+
+def _unit_possible(plan: Plan, slip: Slip) -> bool:
+    """Whether all units are stated, so that one that is wrong contradicts the others."""
+    if plan.unit_beside_input == "none" or plan.unit_of_column == "none" or plan.words == "none":
+        return False
+    if slip.name == "head":
+        return True
+    power = plan.units[slip.given].power
+    if slip.given in ("beta", "stop_velocity") or power is None:
+        return False
+    return plan.converted and not plan.flat and power != 0 if slip.name == "conversion" else (
+        not plan.converted)  # fmt: skip
 
 
 def _diameter_cell(plan: Plan) -> bool:
@@ -546,50 +569,55 @@ class _Builder:
         return (row + 1, column + i) if plan.flat else (row + i, column + 1)
 
     def _put_inputs(self) -> None:
-        plan, sheet = self.plan, self.input_sheet
-        derived = [name for name, has in (
-            ("diameter", _diameter_cell(plan)), ("mass", plan.mass == "cell"),
-            ("resistance", _resistance_cell(plan)),
-        ) if has]  # fmt: skip
-        for i, name in enumerate((*plan.given, *derived)):
-            row, column = self._input_place(i)
-            at = (sheet, row, column)
-            self.touched[name] = {at}
-            label = (sheet, row - 1, column) if plan.flat else (sheet, row, column - 1)
-            words, unit = (
-                self.word(name),
-                "" if plan.unit_beside_input == "none" else self.unit(name),
-            )
-            if name in derived:
-                unit = unit and UNITS[name][0].name
-            if words and unit and (plan.unit_beside_input == "label" or plan.flat):
-                words = f"{words} [{unit}]"
-            elif unit and not plan.flat:
-                self.book.cells[sheet, row, column + 1] = unit
-                self.touched[name].add((sheet, row, column + 1))
-            if words:
-                self.book.cells[label] = words
-                self.touched[name].add(label)
-            if name in derived:
-                continue
-            self.book.cells[at] = plan.numbers[name]
-            self.book.inputs[name] = self.cell_of[name] = at
-            power = plan.units[name].power
-            if plan.converted and power != 0 and not plan.flat:
-                si = (sheet, row, column + 2)
-                self.book.cells[si] = f"={_ref(at, '')}{self._to_si(name, wrong=True)}"
-                self.cell_of[f"{name} in SI"] = si
-                self.touched[name].add(si)
-        for name in derived:
-            row, column = self._input_place((*plan.given, *derived).index(name))
-            formula = {"diameter": self._diameter_formula, "mass": self._mass_formula,
-                       "resistance": self._resistance_formula}[name]()  # fmt: skip
-            self.book.cells[sheet, row, column] = f"={formula}"
-            self.cell_of[name] = (sheet, row, column)
+        plan = self.plan
+        derived = {"diameter": _diameter_cell(plan), "mass": plan.mass == "cell",
+                   "resistance": _resistance_cell(plan)}  # fmt: skip
+        names = (*plan.given, *(name for name, has in derived.items() if has))
+        at = {name: (self.input_sheet, *self._input_place(i)) for i, name in enumerate(names)}
+        for name in names:
+            self._put_label(name, at[name])
+        for name in plan.given:
+            self._put_number(name, at[name])
+        formulas = {"diameter": self._diameter_formula, "mass": self._mass_formula,
+                    "resistance": self._resistance_formula}  # fmt: skip
+        for name in names[len(plan.given) :]:
+            self.book.cells[at[name]] = f"={formulas[name]()}"
+            self.cell_of[name] = at[name]
         if plan.references == "names":
-            for name, at in self.cell_of.items():
-                address = f"'{at[0]}'!{_ref(at, '$')}"
+            for name, place in self.cell_of.items():
+                address = f"'{place[0]}'!{_ref(place, '$')}"
                 self.book.names[self._defined_name(name)] = address
+
+    def _put_label(self, name: str, at: Place) -> None:
+        """The words and the unit of an input, or of what follows from inputs."""
+        plan, (sheet, row, column) = self.plan, at
+        self.touched[name] = {at}
+        label = (sheet, row - 1, column) if plan.flat else (sheet, row, column - 1)
+        words, unit = (
+            self.word(name),
+            self.unit(name) if name in plan.given else UNITS[name][0].name,
+        )
+        if plan.unit_beside_input == "none":
+            unit = ""
+        if words and unit and (plan.unit_beside_input == "label" or plan.flat):
+            words = f"{words} [{unit}]"
+        elif unit and not plan.flat:
+            self.book.cells[sheet, row, column + 1] = unit
+            self.touched[name].add((sheet, row, column + 1))
+        if words:
+            self.book.cells[label] = words
+            self.touched[name].add(label)
+
+    def _put_number(self, name: str, at: Place) -> None:
+        """The number of an input, and in a cell beside what it is in SI units."""
+        plan, (sheet, row, column) = self.plan, at
+        self.book.cells[at] = plan.numbers[name]
+        self.book.inputs[name] = self.cell_of[name] = at
+        if plan.converted and plan.units[name].power != 0 and not plan.flat:
+            si = (sheet, row, column + 2)
+            self.book.cells[si] = f"={_ref(at, '')}{self._to_si(name, wrong=True)}"
+            self.cell_of[f"{name} in SI"] = si
+            self.touched[name].add(si)
 
     def _defined_name(self, name: str) -> str:
         short = {"step": "dt_", "radius": "Rad_", "diameter": "Dia_", "velocity": "Vel_"}
@@ -702,8 +730,7 @@ class _Builder:
         """The reference to a cell of the table."""
         _, row, column = self.at(name, k)
         if self.plan.style["dollar"] == 0:
-            fixed = f"{letters(column)}${row}" if self.plan.across else f"${letters(column)}{row}"
-            return fixed
+            return f"{letters(column)}${row}" if self.plan.across else f"${letters(column)}{row}"
         return f"{letters(column)}{row}"
 
     def value(self, name: str, k: int) -> str:
@@ -774,31 +801,28 @@ class _Builder:
         return f"({text}){_times(-power, self.plan.style['power'])}" if power else text
 
     def _in_unit(self, name: str, k: int) -> str:
-        match name:
-            case "time":
-                text = self._time(k)
-            case "velocity_initial":
-                return self._start(k)
-            case "depth":
-                text = self._depth(k)
-            case "area":
-                text = f"PI()*{self._area(k)}" if not self._wrong("no pi", k) else self._area(k)
-            case "pressure":
-                text = self._pressure(k)
-            case "force":
-                text = self._force(k)
-            case "deceleration":
-                text = self._deceleration(k)
-            case "change":
-                text = f"{self.value(BRAKE, k)}*{self.step('change', k)}"
-            case "velocity_final":
-                text = self._end(k)
-            case "ratio":
-                text = f"{self.value(DEPTH, k)}/{self.radius()}"
-            case _:
-                mass = self.given("mass") if "mass" in self.cell_of else f"({self._mass_formula()})"
-                text = f"0.5*{mass}*{self._velocity(k)}^2"
-        return self._to_unit(name, text)
+        """The formula of a column in step k, in its unit."""
+        if name == START:
+            return self._start(k)
+        formulas = {
+            TIME: self._time, DEPTH: self._depth, "area": self._pi_area, BRAKE: self._deceleration,
+            "pressure": self._pressure, "force": self._force, "change": self._change,
+            END: self._end, "ratio": self._ratio, "energy": self._energy,
+        }  # fmt: skip
+        return self._to_unit(name, formulas[name](k))
+
+    def _change(self, k: int) -> str:
+        return f"{self.value(BRAKE, k)}*{self.step('change', k)}"
+
+    def _ratio(self, k: int) -> str:
+        return f"{self.value(DEPTH, k)}/{self.radius()}"
+
+    def _energy(self, k: int) -> str:
+        mass = self.given("mass") if "mass" in self.cell_of else f"({self._mass_formula()})"
+        return f"0.5*{mass}*{self._velocity(k)}^2"
+
+    def _pi_area(self, k: int) -> str:
+        return self._area(k) if self._wrong("no pi", k) else f"PI()*{self._area(k)}"
 
     def step(self, column: str, k: int) -> str:
         return self.given("step", column, k)
@@ -965,44 +989,21 @@ class _Builder:
     # what is true
 
     def truth(self, results: dict[str, Place]) -> Truth:
-        slip = self.slip
-        if slip is None:
+        if self.slip is None:
             return CLEAN
+        cells = tuple(map(full, self._accused(self.slip, results)))
+        return Truth(1, kinds(self.slip), cells)
 
-        def column(name: str, *rows: int) -> tuple[str, ...]:
-            return tuple(full(self.at(name, k)) for k in rows)
-
-        match slip.name:
-            case "typed" | "typed, right digits":
-                return Truth(1, TYPED, column(slip.column, slip.row or 1))
-            case "stale" | "stale, slightly":
-                return Truth(1, ("stale value",), column(slip.column, slip.row or 1))
-            case "typed constant":
-                rows = (slip.row,) if slip.row else (1, 2)
-                return Truth(1, ("typed constant",), column(slip.column, *rows))
-            case "lost $":
-                return Truth(1, ODD, column(slip.column, 1, 2, 3))
-            case "no half step":
-                return Truth(1, SCHEME, column(DEPTH, 1))
-            case "explicit Euler":
-                return Truth(1, SCHEME, column(DEPTH, 2, 3))
-            case "centered":
-                return Truth(1, SCHEME, column(BRAKE, 1, 2, 3))
-            case "mass: 3.14":
-                return Truth(1, ("typed constant",), (full(self.cell_of["mass"]),))
-            case "label" | "conversion":
-                return Truth(1, ("unit",), tuple(map(full, self.touched[slip.given])))
-            case "head":
-                return Truth(1, ("unit",), tuple(map(full, self.touched[slip.column])))
-            case "result of the row before":
-                return Truth(1, ODD, (full(results["depth"]),))
-            case "result over the diameter":
-                return Truth(1, ODD, (full(results["ratio"]),))
-        if slip.column in self.cell_of and slip.row is None and slip.column not in self.line:
-            return Truth(1, ODD, (full(self.cell_of[slip.column]),))
-        if slip.row is not None:
-            return Truth(1, ODD, column(slip.column, slip.row))
-        return Truth(1, OF_A_COLUMN[slip.name], column(slip.column, 1, 2, 3))
+    def _accused(self, slip: Slip, results: dict[str, Place]) -> Iterable[Place]:
+        """The cells in which a slip can be seen."""
+        if slip.name in ("label", "conversion", "head"):
+            return self.touched[slip.given or slip.column]
+        if slip.name.startswith("result"):
+            return (results["ratio" if "diameter" in slip.name else "depth"],)
+        if slip.column not in self.line:
+            return (self.cell_of[slip.column],)
+        rows = (slip.row,) if slip.row else ROWS.get(slip.name, (1, 2, 3))
+        return (self.at(slip.column, k) for k in rows)
 
 
 def _ref(at: Place, dollar: str) -> str:

@@ -15,7 +15,7 @@ from running import coldspray
 
 @dataclass(frozen=True)
 class Truth:
-    """The exit status; of a fault the kinds and cells that name it; of a refusal, words of its line.
+    """The status; of a fault the kinds and cells that name it; of a refusal, words of its line.
 
     More than one kind only where the manual lets a fault be called by two; no kind: any. More than
     one cell where a fault is in several, or is the disagreement of several. A cell is written B5 if

@@ -50,7 +50,7 @@ CASES = [
     pytest.param(
         each,
         id=f"{section}: {each.title}",
-        marks=[pytest.mark.slow] * (section in ("newcomers", "arbitrary")),
+        marks=[pytest.mark.slow] * (section in ("newcomers", "tables", "arbitrary")),
     )
     for section, cases in SECTIONS.items()
     for each in cases
@@ -90,7 +90,7 @@ def test_a_drawn_layout_is_clean_with_any_inputs(seed: int, tmp_path: Path) -> N
     assert told(ask(written(drawn(seed, other_impact(seed)), tmp_path))) == "0"
 
 
-@pytest.mark.parametrize("book", rates.other_models(), ids=lambda book: book.name)
+@pytest.mark.parametrize("book", list(rates.other_models()), ids=lambda book: book.name)
 def test_another_model_is_not_judged(book: Known, tmp_path: Path) -> None:
     says(book.truth, book.written(tmp_path / "book.xlsx"), book.book)
 
