@@ -266,12 +266,17 @@ KINDS = {
     "stale": ("stale value",), "stale, slightly": ("stale value",),
     "typed constant": ("typed constant",), "mass: 3.14": ("typed constant",),
     "no half step": SCHEME, "explicit Euler": SCHEME, "centered": SCHEME,
+    "beyond the stop": SCHEME,
     "label": UNIT, "conversion": UNIT, "head": UNIT,
 }  # fmt: skip
 """What slips are called that are no odd formulas."""
 
 ROWS = {"typed constant": (1, 2), "explicit Euler": (2, 3)}
 """The first rows in which some slips in a column can be seen; others in one of the first three."""
+
+
+BEYOND = 4
+"""So many rows too many are filled down."""
 
 
 def kinds(slip: Slip) -> tuple[str, ...]:
@@ -305,7 +310,7 @@ def slips(plan: Plan) -> list[Slip]:
     found += [Slip(f"mass: {what}", "mass") for what in ("no third", "square", "3.14")]
     found += [Slip("diameter the radius", "diameter"), Slip("resistance a sum", "resistance")]
     found += [Slip("label", given=r.choice(plan.given)), Slip("head", column=DEPTH)]
-    found += [Slip("conversion", given=r.choice(plan.given))]
+    found += [Slip("conversion", given=r.choice(plan.given)), Slip("beyond the stop", END)]
     found += [Slip("result of the row before"), Slip("result over the diameter")]
     return [slip for slip in found if _possible(plan, slip)]
 
@@ -348,6 +353,9 @@ def _possible(plan: Plan, slip: Slip) -> bool:
     if slip.name.startswith("result"):
         return _result(plan)
     match slip.name:
+        case "beyond the stop":
+            stops = "stop_velocity" in plan.given and not plan.guard and not _result(plan)
+            return stops and plan.velocities == "both" and plan.inputs_at in ("above", "sheet")
         case "lost $":
             return plan.references == "absolute" and plan.inputs_at != "sheet"
         case "diameter the radius":
@@ -482,7 +490,7 @@ def _visible(right: Stranger, wrong: Stranger) -> bool:
     places = [at for at in right.book.where.values() if at in right.values]
     if not all(isinstance(wrong.values.get(at), float) for at in places):
         return False
-    if wrong.slip.name in ("typed constant", "label", "head"):
+    if wrong.slip.name in ("typed constant", "label", "head", "beyond the stop"):
         return True
     return any(_apart(right.values[at], wrong.values.get(at)) for at in texts if at in right.values)
 
@@ -507,6 +515,8 @@ class _Builder:
         self.touched: dict[str, set[Place]] = {}
         self.steps = plan.steps
         self.rows = self.steps + plan.spare
+        if slip and slip.name == "beyond the stop":
+            self.rows += BEYOND
         gap = 2 if plan.style["gap"] == 0 else 1
         self.left = 1 + plan.style["left"] % 5
         self.top = self._height() + 3 + plan.style["top"]
@@ -1002,7 +1012,9 @@ class _Builder:
             return (results["ratio" if "diameter" in slip.name else "depth"],)
         if slip.column not in self.line:
             return (self.cell_of[slip.column],)
-        rows = (slip.row,) if slip.row else ROWS.get(slip.name, (1, 2, 3))
+        rows: Iterable[int] = (slip.row,) if slip.row else ROWS.get(slip.name, (1, 2, 3))
+        if slip.name == "beyond the stop":
+            rows = range(self.steps, self.rows + 1)
         return (self.at(slip.column, k) for k in rows)
 
 
