@@ -64,12 +64,12 @@ CASES = (
     ),
     case(
         "drag at the impact velocity",
-        fault(EITHER, "E10", "E11"),
+        fault(EITHER, "E9", "E10", "E11"),
         fill("E9:E60", "=(0.5*$E$1*$B$5^2+$B$6)*PI()*($B$4*D9-D9^2)/$B$3"),
     ),
     case(
         "drag at the row before",
-        fault(EITHER, "E10", "E11"),
+        fault(EITHER, "E9", "E10", "E11"),
         fill("E9:E60", "=(0.5*$E$1*C8^2+$B$6)*PI()*($B$4*D9-D9^2)/$B$3"),
     ),
     case(
@@ -82,7 +82,7 @@ CASES = (
     ),
     case(
         "drag with a cube",
-        fault(EITHER, "E10", "E11"),
+        fault(EITHER, "E9", "E10", "E11"),
         fill("E9:E60", "=(0.5*$E$1*C9^3/500+$B$6)*PI()*($B$4*D9-D9^2)/$B$3"),
     ),
     case(

@@ -60,7 +60,7 @@ CASES = (
     ),
     case(
         "beta typed into the resistance, another than its cell",
-        fault("typed constant", "B6"),
+        fault(("typed constant", "odd formula"), "B6"),
         put("H1", 4),
         put("B6", "=5*H2"),
     ),
@@ -315,7 +315,7 @@ CASES = (
     case("resistance of beta alone", CLEAN, put("B6", "=H1*7E8"), clear("G2"), clear("H2")),
     case(
         "impact velocity typed into two rows",
-        fault("typed constant", "C8", "C9"),
+        fault(("typed constant", "typed number"), "C8", "C9"),
         put("C8", 500),
         put("C9", 500),
     ),
@@ -408,10 +408,14 @@ CASES = (
         put("D3", "stop velocity"),
         put("E3", 50),
     ),
-    case("impact velocity typed into the first row", fault("typed constant", "C8"), put("C8", 500)),
+    case(
+        "impact velocity typed into the first row",
+        fault(("typed constant", "typed number"), "C8"),
+        put("C8", 500),
+    ),
     case(
         "impact velocity typed into two rows, another",
-        fault("typed constant", "C8", "C9"),
+        fault(("typed constant", "typed number"), "C8", "C9"),
         put("C8", 450),
         put("C9", 450),
     ),

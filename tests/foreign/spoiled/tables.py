@@ -147,7 +147,7 @@ CASES = (
     ),
     case(
         "a velocity in the middle of its row, not at its end",
-        fault(EITHER, "E7", "E8"),
+        fault(EITHER, "D7", "E7", "E8"),
         layout="middle",
     ),
     case(
