@@ -59,7 +59,7 @@ UNITS = {
     "mass": MASSES, TIME: TIMES, START: VELOCITIES[:3], END: VELOCITIES[:3], DEPTH: LENGTHS,
     BRAKE: DECELERATIONS, "area": AREAS, "pressure": STRESSES[:5], "force": FORCES,
     "change": VELOCITIES[:1], "ratio": NUMBER, "energy": (metric("J", 0), metric("mJ", -3)),
-    "count": NUMBER,
+    "count": NUMBER, "pi": NUMBER,
 }  # fmt: skip
 """The units in which an input is typed or a column calculates."""
 
@@ -100,6 +100,16 @@ class Plan:
     def steps(self) -> int:
         return run(self.impact).steps
 
+    @property
+    def summed(self) -> bool:
+        """Whether each depth is a sum over all velocities before it."""
+        return self.velocities == "both" and not self.guard and self.style["sum"] == 0
+
+    @property
+    def inside(self) -> bool:
+        """Whether the impact velocity is typed into the table, and has no other cell."""
+        return "velocity" not in self.given
+
 
 def draw(seed: int, words: str = "", *, pasted: bool | None = None) -> Plan:
     """Draw the plan of a seed; `words` and `pasted` settle these two instead."""
@@ -125,6 +135,10 @@ def draw(seed: int, words: str = "", *, pasted: bool | None = None) -> Plan:
     if pasted is not None:
         digits = (digits or r.randrange(5, 13)) if pasted else None
     deep = run(impact).final_depth >= impact.radius
+    zero = r.random() < 0.75 or velocities != "both"
+    if zero and velocities == "both" and r.random() < 0.1:
+        given.remove("velocity")
+        numbers["velocity"] = float(f"{impact.velocity / units[START].si:.12g}")
     return Plan(
         seed, impact, tuple(given), numbers, units, columns, velocities, words,
         unit_beside_input=r.choice(("label", "label", "next", "none")),
@@ -134,7 +148,7 @@ def draw(seed: int, words: str = "", *, pasted: bool | None = None) -> Plan:
         converted=r.random() < 0.3,
         references=r.choices(("absolute", "mixed", "names"), (5, 1, 2))[0],
         across=r.random() < 0.18,
-        zero=r.random() < 0.75 or velocities != "both",
+        zero=zero,
         negative=r.random() < 0.2,
         beyond=deep or r.random() < 0.3,
         guard="" if digits else guard,
@@ -143,7 +157,8 @@ def draw(seed: int, words: str = "", *, pasted: bool | None = None) -> Plan:
         digits=digits,
         style={name: r.randrange(12) for name in (
             "area", "pressure", "force", "half", "time", "power", "mass", "head", "first", "gap",
-            "top", "left", "result", "notes", "second", "depth", "end", "dollar", "inputs",
+            "square", "pi", "sum", "blank", "top", "left", "result", "notes", "second",
+            "depth", "end", "dollar", "inputs",
         )},
     )  # fmt: skip
 
@@ -275,6 +290,17 @@ ROWS = {"typed constant": (1, 2), "explicit Euler": (2, 3)}
 """The first rows in which some slips in a column can be seen; others in one of the first three."""
 
 
+SUMMED = (
+    "typed",
+    "typed, right digits",
+    "stale",
+    "stale, slightly",
+    "typed constant",
+    "lost $",
+    "head",
+)
+"""The faults of depths that are sums."""
+
 BEYOND = 4
 """So many rows too many are filled down."""
 
@@ -312,6 +338,10 @@ def slips(plan: Plan) -> list[Slip]:
     found += [Slip("label", given=r.choice(plan.given)), Slip("head", column=DEPTH)]
     found += [Slip("conversion", given=r.choice(plan.given)), Slip("beyond the stop", END)]
     found += [Slip("result of the row before"), Slip("result over the diameter")]
+    if plan.digits is not None:
+        found = [slip for slip in found if slip.name == "typed"]
+    if plan.summed:
+        found = [slip for slip in found if slip.column != DEPTH or slip.name in SUMMED]
     return [slip for slip in found if _possible(plan, slip)]
 
 
@@ -342,8 +372,6 @@ def _readers(plan: Plan, given: str) -> list[str]:
 
 def _possible(plan: Plan, slip: Slip) -> bool:
     """Whether the workbook can have the fault, and enough stands in it to call that a fault."""
-    if plan.digits is not None:
-        return slip.name == "typed"
     if slip.name in ("label", "head", "conversion"):
         return _unit_possible(plan, slip)
     if slip.name in ("centered", "explicit Euler", "column beside"):
@@ -443,6 +471,8 @@ def _paste(right: Stranger, digits: int) -> None:
             cells[at] = float(f"{value:.{digits}g}") if isinstance(value, float) else value
     kept = plan.style["inputs"] % 3
     for name, place in list(right.book.inputs.items()):
+        if plan.inside and name == "velocity":
+            continue
         if kept == 0 or (kept == 1 and name in ("radius", "target_density", "step")):
             del right.book.inputs[name]
             row, column = place[1], place[2]
@@ -525,6 +555,8 @@ class _Builder:
         self.origin = start + heads  # the row or column of the impact
         first = self.top if plan.across else self.left
         self.line = {name: first + i * gap for i, name in enumerate(plan.columns)}
+        if plan.inside:
+            self.cell_of["velocity"] = self.book.inputs["velocity"] = self.at(START, 0)
 
     def _height(self) -> int:
         """How many rows the inputs take above the table."""
@@ -583,13 +615,17 @@ class _Builder:
         derived = {"diameter": _diameter_cell(plan), "mass": plan.mass == "cell",
                    "resistance": _resistance_cell(plan)}  # fmt: skip
         names = (*plan.given, *(name for name, has in derived.items() if has))
+        if plan.style["pi"] == 0:
+            names = (*names, "pi")
         at = {name: (self.input_sheet, *self._input_place(i)) for i, name in enumerate(names)}
         for name in names:
             self._put_label(name, at[name])
         for name in plan.given:
             self._put_number(name, at[name])
+        if "pi" in names:
+            self.cell_of["pi"] = at["pi"]
         formulas = {"diameter": self._diameter_formula, "mass": self._mass_formula,
-                    "resistance": self._resistance_formula}  # fmt: skip
+                    "resistance": self._resistance_formula, "pi": lambda: "PI()"}  # fmt: skip
         for name in names[len(plan.given) :]:
             self.book.cells[at[name]] = f"={formulas[name]()}"
             self.cell_of[name] = at[name]
@@ -657,6 +693,8 @@ class _Builder:
         own = self.cell_of.get(f"{name} in SI")
         at = own or self.cell_of[name]
         suffix = "" if own or name not in plan.given else self._to_si(name)
+        if name == "velocity" and plan.inside:
+            suffix = self._factor(START)
         if here and slip and slip.name == "typed constant" and slip.row in (None, k):
             number = plan.numbers[name] * (plan.units[name].si if own else 1.0)
             return _bracketed(_plain(float(f"{number:.15g}")), suffix)
@@ -689,6 +727,9 @@ class _Builder:
             return self.given("resistance", column, k)
         return f"{self.given('beta', column, k)}*{self.given('flow_stress', column, k)}"
 
+    def pi(self) -> str:
+        return self.given("pi") if "pi" in self.cell_of else "PI()"
+
     def _diameter_formula(self) -> str:
         factor = "1*" if self._wrong("diameter the radius") else "2*"
         return f"{factor}{self.given('radius')}"
@@ -698,7 +739,7 @@ class _Builder:
         return f"{self.given('beta')}{sign}{self.given('flow_stress')}"
 
     def _mass_formula(self, column: str = "", k: int = 0) -> str:
-        pi = "3.14" if self._wrong("mass: 3.14") else "PI()"
+        pi = "3.14" if self._wrong("mass: 3.14") else self.pi()
         power = 2 if self._wrong("mass: square") else 3
         rho = self.given("particle_density", column, k)
         if "diameter" in self.plan.given and self.plan.style["mass"] % 2:
@@ -785,11 +826,14 @@ class _Builder:
             return text
         # A blank text counts as zero, so that it is below the stop velocity.
         low = _bracketed(f"N({self.ref(END, k - 1)})", self._factor(END))
-        return f'IF({low}<{self.given("stop_velocity")},"",{text})'
+        blank = "NA()" if self.plan.style["blank"] % 3 == 0 else '""'
+        return f"IF({low}<{self.given('stop_velocity')},{blank},{text})"
 
     def _impact(self, name: str) -> str | float | None:
         """What the row of the impact shows."""
         own = "=" + self._to_unit(START, self.given("velocity"))
+        if self.plan.inside and name == START:
+            return self.plan.numbers["velocity"]
         blank = self.plan.style["first"] % 2
         match name:
             case "count" | "time" | "depth":
@@ -832,7 +876,7 @@ class _Builder:
         return f"0.5*{mass}*{self._velocity(k)}^2"
 
     def _pi_area(self, k: int) -> str:
-        return self._area(k) if self._wrong("no pi", k) else f"PI()*{self._area(k)}"
+        return self._area(k) if self._wrong("no pi", k) else f"{self.pi()}*{self._area(k)}"
 
     def step(self, column: str, k: int) -> str:
         return self.given("step", column, k)
@@ -841,6 +885,8 @@ class _Builder:
         dt, way = self.step(TIME, k), self.plan.style["time"] % 4
         if way == 1 and "count" in self.plan.columns:
             return f"{self.ref('count', k)}*{dt}"
+        if way == 2 and not self.plan.across:
+            return f"(ROW()-{self.origin})*{dt}"
         if k == 1 and not self.plan.zero:
             return f"1*{dt}"
         return f"{self.value(TIME, k - 1)}+{dt}"
@@ -883,6 +929,9 @@ class _Builder:
 
     def _depth(self, k: int) -> str:
         v, dt = self._velocity(k), self.step(DEPTH, k)
+        if self.plan.summed:
+            first, factor = _ref(self.at(START, 1), "$"), self._factor(START)
+            return f"{dt}*(SUM({first}:{self.ref(START, k)}){factor}-{first}{factor}/2)"
         if k > 1 and self._wrong("explicit Euler"):
             v = self._velocity(k - 1)
         if self._wrong_in("column beside", DEPTH, k):
@@ -918,13 +967,15 @@ class _Builder:
     def _pressure(self, k: int, velocity: str = "") -> str:
         column = _shown(self.plan, "pressure")
         v, rho = velocity or self._velocity(k), self.given("target_density", column, k)
-        power = "3" if self._wrong("cube of the velocity", k) else "2"
+        square = (f"{v}^2", f"{v}*{v}", f"POWER({v},2)", f"{v}^2")[self.plan.style["square"] % 4]
+        if self._wrong("cube of the velocity", k):
+            square = f"{v}^3"
         half, by = "0.5*", "/2"
         if self._wrong("no 1/2", k):
             half, by = "", ""
         if self._wrong("another number", k):
             half, by = "0.6*", "/3"
-        drag = (f"{half}{rho}*{v}^{power}", f"{rho}*{v}^{power}{by}")[
+        drag = (f"{half}{rho}*{square}", f"{rho}*{square}{by}")[
             self.plan.style["pressure"] % 4 // 2
         ]
         if self._wrong("no resistance", k):
@@ -940,7 +991,7 @@ class _Builder:
             f"({self._pressure(k, velocity)})")  # fmt: skip
         if "area" in columns:
             return f"{stress}*{self.value('area', k)}"
-        pi = "" if self._wrong("no pi", k) else "PI()*"
+        pi = "" if self._wrong("no pi", k) else f"{self.pi()}*"
         return f"{stress}*{pi}{self._area(k)}"
 
     def _deceleration(self, k: int) -> str:
@@ -965,7 +1016,8 @@ class _Builder:
         rows = [self.at(name, k) for name in plan.columns for k in (0, self.rows)]
         column = max(c for _, _, c in [*rows, *self.book.cells]) + 3
         last = self.steps - (1 if self._wrong("result of the row before") else 0)
-        way = plan.style["result"] % 3
+        # A largest depth of rows that end with #N/A is #N/A.
+        way = plan.style["result"] % 3 if plan.guard != "velocity" else 0
         cells = f"{self.ref(DEPTH, 1)}:{self.ref(DEPTH, self.rows)}".replace("$", "")
         text = self.ref(DEPTH, last)
         if way == 1 and last == self.steps:

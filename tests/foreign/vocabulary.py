@@ -29,6 +29,7 @@ KNOWN = {
     "ratio": ("x/R",),
     "energy": ("E_kin", "kinetic energy"),
     "count": ("n", "#", "step no."),
+    "pi": ("pi", "π"),
     "note": ("checked by hand", "see the notebook, p. 12", "Stand: 3. Mai"),
     "title": ("Impact of one particle", "Eindringen einer Kugel"),
 }
@@ -57,6 +58,7 @@ FOREIGN = {
     "ratio": ("poměr", "suhde", "oran"),
     "energy": ("energie", "energia", "enerji"),
     "count": ("č.", "nro", "sıra", "№"),
+    "pi": ("π",),
     "note": ("ověřeno", "tarkistettu", "kontrol edildi"),
     "title": ("Průnik kuličky", "Kuulan tunkeuma", "Bir parçacığın girişi"),
 }
