@@ -4,14 +4,8 @@ import json
 from pathlib import Path
 
 import pytest
-from foreign import writers
-from foreign.byhand import made
 from foreign.pairs import PAIRS, Pair
-from kept import calls, kept
 from running import coldspray
-
-from replication.cases import BETA_5
-from replication.check.diff import Tolerance
 
 
 @pytest.mark.parametrize("pair", PAIRS, ids=lambda pair: pair.title)
@@ -23,31 +17,3 @@ def test_the_first_difference_is_where_something_was_changed(pair: Pair, tmp_pat
     # What is within a tolerance may still change what follows from it.
     if first.get("kind") in ("formula", "value") and not pair.options and pair.changed:
         assert f"{first['sheet']}!{first['cell']}" in pair.changed
-
-
-@kept("replication/kept.txt", "Options of diff, and the kinds of differences that they leave")
-def test_options_say_what_is_compared(question: str, answer: str, tmp_path: Path) -> None:
-    paths = []
-    for name, formula in (("a.xlsx", "=2*B1"), ("b.xlsx", "=2*B1*(1+1E-14)")):
-        f = made("table-a1", BETA_5)
-        f.put("Sheet1", "B4", formula)
-        paths.append(writers.with_openpyxl(f, tmp_path / name))
-    status, out, err = coldspray("diff", *paths, "--json", *question.split())
-    assert (status, err) == (answer != "none", "")
-    assert (", ".join(json.loads(out)["summary"]) or "none") == answer
-
-
-test_tolerances = calls("replication/kept.txt", "Tolerances", {"Tolerance": Tolerance})
-
-
-def test_text_page_and_junit_are_those_of_check(tmp_path: Path) -> None:
-    f = made("french", BETA_5)
-    a = writers.with_openpyxl(f, tmp_path / "a.xlsx")
-    f.put("Données", "C8", 450)
-    b = writers.with_openpyxl(f, tmp_path / "b.xlsx")
-    page, junit = tmp_path / "d.html", tmp_path / "d.xml"
-    status, out, _ = coldspray("diff", a, b, "--html", page, "--junit", junit)
-    assert status == 1
-    assert "Données!C8, value\n    was 500.0, is 450.0" in out
-    assert "c0-C8" in page.read_text("utf-8")
-    assert 'name="value"' in junit.read_text("utf-8")
