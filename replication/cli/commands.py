@@ -353,16 +353,19 @@ def run_diff(options: argparse.Namespace) -> int:
 
 def _check_files(options: argparse.Namespace, *workbooks: Path) -> None:
     """Raise OSError or ValueError if --html or --junit names a file that must not be written."""
-    from spreadsheets.safely import check_own
+    from spreadsheets.safely import check_own, check_target
 
     marks = (
         (options.html, b'<meta name="generator" content="coldspray '),
         (options.junit, b'<testsuite name="coldspray '),
     )
-    written = [str(check_own(file, mark)) for file, mark in marks if file is not None]
+    written = [str(check_target(file)) for file, _ in marks if file is not None]
     read = {os.path.realpath(file) for file in workbooks}  # unlike resolve(), no error for a loop
     if len({*written, *read}) < len(written) + len(read):
         raise ValueError("--html and --junit each need a file of their own, not one that is read")
+    for file, mark in marks:
+        if file is not None:
+            check_own(file, mark)
 
 
 def _put_found(
