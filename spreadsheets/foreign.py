@@ -48,7 +48,7 @@ Value = float | str | bool
 
 MAX_FILE = 64 * 2**20
 """Bytes of a file."""
-MAX_CELLS = 400_000
+MAX_CELLS = 250_000
 MAX_FORMULAS = 60_000
 """A sheet of the scheme has some 800 cells; with a step of 1 ps it has 160,000."""
 MAX_FORMULA_TEXT = 4_000_000

@@ -19,7 +19,7 @@ MAX_UNPACKED = 192 * 2**20
 MAX_PARTS = 10_000
 _MAX_LISTING = 2 * 2**20
 """Bytes of the list of parts at the end of an archive; 10,000 parts need half of it."""
-MAX_EVENTS = 6_000_000
+MAX_EVENTS = 3_000_000
 """Pieces of XML (elements, texts, comments) in all parts: a cell has at most eight."""
 MAX_TREE = 200_000
 """Elements that are kept at the same time: those of one row, or of a part that is read whole."""

@@ -37,11 +37,10 @@ def check_target(path: Path) -> Path:
     return target
 
 
-def check_own(path: Path, mark: bytes) -> Path:
-    """Return the file that writing to `path` would create, or replace because it is our own.
+def check_own(path: Path, mark: bytes) -> None:
+    """Raise OSError, naming the path, if writing to it would replace what we have not written.
 
     Our own files have `mark` within their first kilobyte; an empty file may be replaced, too.
-    Raises OSError, naming the path, for any other file.
     """
     target = check_target(path)
     if target.exists():
@@ -50,7 +49,6 @@ def check_own(path: Path, mark: bytes) -> Path:
         if start and mark not in start:
             problem = "this file was written by something else; give another name, or remove it"
             raise FileExistsError(EEXIST, problem, str(path))
-    return target
 
 
 @contextmanager

@@ -113,20 +113,34 @@ class Comparison:
     def __init__(self, before: Book, after: Book, values_only: bool, tolerance: Tolerance) -> None:
         self.before, self.after, self.tolerance = before, after, tolerance
         self.layout = Layout(before, after)
-        pairs = self.layout.new_place.items()
+        self.old_place = {new: old for old, new in self.pairs()}
         formulas = {
             new: differs
-            for old, new in pairs
+            for new, old in self.old_place.items()
             if (not values_only or _has_no_value(before[old], after[new]))
             and (differs := self.formula(old, new))
         }
-        values = {new: differs for old, new in pairs if (differs := self.value(old, new))}
+        values = {
+            new: differs for new, old in self.old_place.items() if (differs := self.value(old, new))
+        }
         self.differences = [
             *self.settings(),
             *self.layout.differences,
             *(() if values_only else self.names()),
             *self.contents(formulas, values),
         ]
+
+    def pairs(self) -> Iterator[tuple[Position, Position]]:
+        """The cells that both workbooks have, except those that surely hold the same."""
+        for sheet, places in self.layout.places.items():
+            partner = self.layout.partners[sheet]
+            old, new = self.before.sheets[sheet], self.after.sheets[partner]
+            for cell, to in places.items():
+                same = old[cell] == new[to] and (
+                    self.layout.is_in_place or old[cell].formula is None
+                )
+                if not same:
+                    yield (sheet, *cell), (partner, *to)
 
     def settings(self) -> Iterator[Difference]:
         """Report date systems that differ: the same number is then another date."""
@@ -261,16 +275,15 @@ class Comparison:
         # A value that differs within the tolerance may still make others differ beyond it.
         changed = [
             new
-            for old, new in self.layout.new_place.items()
+            for new, old in self.old_place.items()
             if self.before[old].value != self.after[new].value
         ]
         now, was = Reading(self.after, {*added, *changed, *formulas}), Reading(self.before, removed)
-        old_place = {new: old for old, new in self.layout.new_place.items() if new in values}
         traced = {}
         for new, (a, b, text) in values.items():
             if text != LAST and new in formulas:
                 text = f"{FOLLOWS}the formulas"
-            elif text != LAST and (any(now.read_by(new)) or any(was.read_by(old_place[new]))):
+            elif text != LAST and (any(now.read_by(new)) or any(was.read_by(self.old_place[new]))):
                 text = f"{FOLLOWS}the cells that they read"
             traced[new] = a, b, text
         return traced

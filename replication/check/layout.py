@@ -53,7 +53,7 @@ class Layout:
     def __init__(self, before: Book, after: Book) -> None:
         self.before, self.after = before, after
         self.partners = same_sheets(before, after)
-        self.new_place: dict[Position, Position] = {}
+        self.places: dict[str, dict[Cell, Cell]] = {}
         self.lines: dict[str, tuple[Lines, Lines]] = {}
         self.differences = list(self._sheets())
         for name, partner in self.partners.items():
@@ -64,7 +64,7 @@ class Layout:
                 Lines(way.columns, (column for _, column in old), LAST_COLUMN),
             )
             places = {cell: to for cell, to in way.cells(old).items() if to in new}
-            self.new_place |= {(name, *cell): (partner, *to) for cell, to in places.items()}
+            self.places[name] = places
             gone, come = [], []
             for axis, lines in zip(AXES, self.lines[name], strict=True):
                 gone.append(sorted(lines.used - lines.places.keys()))
@@ -74,8 +74,8 @@ class Layout:
             left = set(old).difference(places), set(new).difference(places.values())
             self.differences += _unmatched("removed", name, old, left[0], gone)
             self.differences += _unmatched("added", partner, new, left[1], come)
-        self.is_in_place = all(
-            old == new for old, new in (*self.partners.items(), *self.new_place.items())
+        self.is_in_place = all(old == new for old, new in self.partners.items()) and all(
+            lines.is_in_place for pair in self.lines.values() for lines in pair
         )
 
     def _sheets(self) -> Iterator[Difference]:
@@ -156,8 +156,8 @@ def _moved(sheet: str, axis: _Axis, lines: Lines, come: Sequence[int]) -> Iterat
 
     `come` are the new lines with contents. A changed order is said once.
     """
-    pairs = list(lines.places.items())
-    moved = [pair for pair in pairs if pair not in set(lines.kept)]
+    pairs, kept = list(lines.places.items()), set(lines.kept)
+    moved = [pair for pair in pairs if pair not in kept]
     if not moved:
         yield from _shifted(sheet, axis, lines, come)
         return

@@ -97,7 +97,8 @@ def matched(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> Match
     )
     by_columns = _align(old_columns, new_columns)
     renamed = {(r, by_columns[c]): key for (r, c), key in a.items() if c in by_columns}
-    kept = {(r, c): key for (r, c), key in b.items() if c in set(by_columns.values())}
+    arriving = set(by_columns.values())
+    kept = {(r, c): key for (r, c), key in b.items() if c in arriving}
     by_rows = _align(_numbered(renamed), _numbered(kept), _stable(renamed, kept))
     moved = Matched(by_rows, by_columns)
     return moved if _score(moved, a, b) > _score(in_place, a, b) else in_place
@@ -251,17 +252,21 @@ class _Alignment:
         """Match lines that share much of what is rare in them, the most similar first."""
         old_left, new_left = self.left()
         old, new = _places(self.a, old_left), _places(self.b, new_left)
-        shared: Counter[Any] = Counter()
-        old_total: Counter[Any] = Counter()
-        new_total: Counter[Any] = Counter()
-        for content in sorted({**old, **new}, key=lambda c: len(old[c]) * len(new[c])):
-            most = max(len(old[content]), len(new[content]))
+        shared: dict[tuple[int, int], float] = defaultdict(float)
+        old_total: dict[int, float] = defaultdict(float)
+        new_total: dict[int, float] = defaultdict(float)
+        for content in {**old, **new}:
+            have, get = old.get(content, ()), new.get(content, ())
+            most = max(len(have), len(get))
             if most > _RARE or len(shared) > _MAX_SIMILAR:
                 continue
             weight = _weight(content) / most
-            old_total.update(dict.fromkeys(old[content], weight))
-            new_total.update(dict.fromkeys(new[content], weight))
-            shared.update(dict.fromkeys(product(old[content], new[content]), weight))
+            for i in have:
+                old_total[i] += weight
+            for j in get:
+                new_total[j] += weight
+            for pair in product(have, get):
+                shared[pair] += weight
         ranked = sorted(shared.items(), key=lambda e: (-e[1], abs(e[0][0] - e[0][1]), e[0]))
         for (i, j), weight in ranked:
             enough = weight > _SHARED * min(old_total[i], new_total[j])
