@@ -19,12 +19,14 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 sys.path.insert(0, str(Path(__file__).parents[2]))
 
 from foreign import writers
+from foreign.built import Stranger, build
 from foreign.byhand import BY_HAND, made
 from foreign.drawn import drawn
 from foreign.faults import FAULTS
 from foreign.layouts import Foreign
 from foreign.models import MODELS
-from foreign.strangers import Stranger, build, draw, slips
+from foreign.slips import slips
+from foreign.strangers import draw
 from foreign.truth import CLEAN, Answer, Truth, ask, outcome, refused, told
 from foreign.words import other_impact, with_unknown_words
 
