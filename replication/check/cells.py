@@ -14,7 +14,7 @@ from replication.check.six import EXACT, start_of_row
 from replication.check.table import Line, Table, behind, runs
 from replication.check.words import title
 from replication.reading import quoted
-from spreadsheets.evaluate import Error, Shape, written
+from spreadsheets.evaluate import Error, LiteralKey, Shape, written
 from spreadsheets.foreign import Position
 
 _MOST_PROBED = 40
@@ -279,16 +279,24 @@ def _alike(
     for number, source in enumerate(inputs.sources, 1):
         if source.literal is None and not source.computed and source.place is not None:
             given[source.place] = source.value * (1 + 0.0029 * number)
+    numbers = {
+        source.literal: source.value * (1 + 0.0023 * number)
+        for number, source in enumerate(inputs.sources, 1)
+        if source.literal is not None and source.name
+    }
     cone = probe.cone(place)
     wide = cone | evaluator.cone(
         [(a.sheet, a.top, a.left) for ref in usual.references for a in [ref.at(place[1], place[2])]
          if a.cells == 1], probe.stop)  # fmt: skip
 
-    def same(cells: Mapping[Position, float | str | bool | None]) -> bool:
-        own = evaluator.value(place, cells, within=wide, shape=shape)
-        want = evaluator.value(place, cells, within=wide, shape=usual)
+    def same(
+        cells: Mapping[Position, float | str | bool | None], literals: Mapping[LiteralKey, float]
+    ) -> bool:
+        own = evaluator.value(place, cells, literals, wide, shape)
+        want = evaluator.value(place, cells, literals, wide, usual)
         if type(own) is float and type(want) is float:
             return math.isclose(own, want, rel_tol=EXACT)
         return type(own) is type(want)
 
-    return same(state), same({**state, **given}) or not same(state)
+    alike = same(state, {})
+    return alike, same({**state, **given}, numbers) or not alike

@@ -32,14 +32,18 @@ def typed_constants(
         family = source.family
         if source.literal is None or source.place is None or family is None:
             continue  # a name that stands for a number is an input by itself
-        cell = _cell_for(source, family, inputs, beside, exam.table.evaluator.values)
+        cell: tuple[str, Position | str] | None = _cell_for(
+            source, family, inputs, beside, exam.table.evaluator.values
+        )
         if cell is None:
             continue
         role, place = cell
         cells = _cells_with(exam, source.place)
         if (cells[0], role) not in told:
             told.add((cells[0], role))
-            where = address(place, place[0] != exam.table.sheet)
+            where = (
+                place if isinstance(place, str) else address(place, place[0] != exam.table.sheet)
+            )
             text = f"{title(role)} is typed as {source.value:.10g}, where {where} should be read"
             exam.add("typed constant", cells, where, text, formula_at(exam, cells[0]))
             for name in _TESTED_BY[family]:
@@ -59,8 +63,8 @@ def _cells_with(exam: Examination, place: Position) -> list[Position]:
 def _cell_for(
     source: Source, family: str, inputs: Inputs, beside: Sequence[Position],
     values: Mapping[Position, Scalar],
-) -> tuple[str, Position] | None:  # fmt: skip
-    """The role and the cell of what a typed number repeats; None if there is none.
+) -> tuple[str, Position | str] | None:  # fmt: skip
+    """The role and the cell, or the name, of what a typed number repeats; None if there is none.
 
     It is a cell that the rows read but to which the part with the typed number does not respond; or
     a cell that nothing reads, with such a label or with that very number.
@@ -68,17 +72,17 @@ def _cell_for(
     needed = [name for name, power in source.powers.items() if abs(power) > 0.02]
     for role in FAMILIES[family]:
         known = inputs.cells.get(role)
-        if known is None or known.cell is None:
+        if known is None or (known.cell is None and not known.name):
             continue
         alike = _digits_alike(source.value, known.value)
         single = family in ("target", "step", "speed")
         if inputs.how.get(role) == "unread":
             if alike or single:
-                return role, known.cell
+                return role, known.place or known.name
         elif any(abs(known.powers.get(name, 0.0)) < 0.02 for name in needed) and (
             family != "inertia" and (family != "size" or alike)
         ):
-            return role, known.cell
+            return role, known.cell or known.name
     for place in beside:
         value = values.get(place)
         if type(value) is float and value == source.value and not is_plain(value):

@@ -202,10 +202,12 @@ def _stop_velocity(
     A cell without a known label is it if the last row is the first one below its number, in the
     unit of the column or in SI units; in any unit if no unit of a velocity is stated.
     """
+    last, before = speeds[max(speeds)], speeds.get(max(speeds) - 1, math.inf)
+    if last < 1.0 <= before and exam.firm_speed:
+        return 1.0
     labelled = exam.inputs.get("stop_velocity")
     if labelled is not None and exam.firm_speed:
         return labelled.si
-    last, before = speeds[max(speeds)], speeds.get(max(speeds) - 1, math.inf)
     if last < 1.0 <= before:
         return 1.0
     taken = {e.place for role, e in exam.inputs.items() if role != "stop_velocity"}

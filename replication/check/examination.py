@@ -11,6 +11,7 @@ from replication.check.roles import Input
 from replication.check.six import Six
 from replication.check.table import Table
 from replication.check.words import COLUMNS
+from spreadsheets.evaluate import Error
 from spreadsheets.foreign import Position, Value
 
 KINDS = (
@@ -102,6 +103,7 @@ class Examination:
         If `found` is not given, it is the value of that cell.
         """
         value = self.table.evaluator.values.get(cells[0]) if found is None else found
+        value = str(value) if isinstance(value, Error) else value
         entry = Difference(kind, tuple(cells), expected, value, text, self.rank(cells[0]))
         self.differences.append(entry)
 

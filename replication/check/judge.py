@@ -22,6 +22,10 @@ from spreadsheets.foreign import Position
 
 _PIS = (3.14, 3.1416, 3.14159, 3.142, 3.1415, 22 / 7, 3.141593, 3.1415927)
 """How people type pi."""
+_FEW_DIGITS = 1e-4 / math.log(10)
+"""The logarithm of a ratio up to which a unit that is no power of ten may be converted."""
+_ABOUT = 0.05
+"""The logarithm of a ratio up to which two numbers are about the same: 12 percent."""
 _VAGUE = 30
 """Numbers without formulas may miss an equation by so many times their uncertainty."""
 
@@ -175,6 +179,9 @@ def _without_unit(
     for eq in found:
         rest = eq.residual(inputs.powers)
         free = [item for item in eq.terms if item not in inputs.stated]
+        odd = any(inputs.powers.get(item, 0.0) % 1 for item in eq.terms if item in inputs.stated)
+        if odd and abs(rest) < _FEW_DIGITS:
+            continue  # converted by a factor of a few digits
         by_unit = any(unit_power(-rest / eq.terms[item], slack) is not None for item in free)
         if abs(rest - round(rest)) <= slack + 2 * CLOSE or abs(rest) < vague or by_unit:
             mendable.append(eq)
@@ -196,8 +203,9 @@ def _broken_equations(
     rests_on = {"diameter": title("radius"), "mass": "the radius and the particle density",
                 "resistance": "beta and the flow stress"}  # fmt: skip
     for role, source in rests_on.items():
-        if role in broken:
-            _wrong_cell(exam, inputs, role, source, times[role], broken[role])
+        typed_over = role in times and _is_typed_over(inputs, role, times[role])
+        if typed_over or (role in broken and not _is_elsewhere(inputs, role)):
+            _wrong_cell(exam, inputs, role, source, times[role], broken.get(role, ""))
     _wrong_force(exam, inputs, broken, times)
     _other_steps(exam, broken)
     start = first_speed(exam.table)
@@ -206,6 +214,29 @@ def _broken_equations(
         where = address(velocity.cell, True) if velocity.cell else "its name"
         text = f"the first velocity is {times['V']:.6g} times {title('velocity')} in {where}"
         exam.add("odd formula", [start], velocity.value, text)
+
+
+_PARTS_OF = {"mass": ("particle_density",), "resistance": ("beta", "flow_stress")}
+"""The inputs of a mass and a resistance that are nothing else's."""
+
+
+def _is_elsewhere(inputs: Inputs, role: str) -> bool:
+    """Whether a typed mass or resistance has parts that no formula reads: of another table, say."""
+    typed = role in inputs.cells and not inputs.cells[role].computed
+    return typed and any(inputs.how.get(part) == "unread" for part in _PARTS_OF.get(role, ()))
+
+
+def _is_typed_over(inputs: Inputs, role: str, times: float) -> bool:
+    """Whether a mass or resistance is typed, though cells that nothing reads hold its inputs.
+
+    It is about what follows from them, in some unit.
+    """
+    power = math.log10(times)
+    if abs(power - round(power)) > _ABOUT:
+        return False
+    parts = _PARTS_OF.get(role, ())
+    typed = role in inputs.cells and not inputs.cells[role].computed
+    return typed and bool(parts) and all(inputs.how.get(part) == "unread" for part in parts)
 
 
 def _wrong_cell(

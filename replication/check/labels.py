@@ -56,7 +56,11 @@ def _text(place: Position, evaluator: Evaluator) -> str | None:
 def _further(place: Position, evaluator: Evaluator, upwards: bool) -> Iterator[str]:
     """Texts further left; and further up, where a unit stands above."""
     sheet, row, column = place
+    is_formula = place in evaluator.formulas
     for distance in range(2, _SIDEWAYS + 1):
+        beside = type(evaluator.values.get((sheet, row, column - distance + 1))) is float
+        if beside and not is_formula:
+            return  # the text further left is the label of the number between
         cells = [(sheet, row, column - distance)]
         cells += [(sheet, row - distance, column)] if upwards else []
         for cell in cells:

@@ -11,7 +11,7 @@ from replication.check.six import REPORT, end_of_row, start_of_row
 from replication.check.table import address
 from replication.check.taken import report_inputs
 from replication.check.units import Equation
-from replication.check.words import input_roles
+from replication.check.words import input_roles, title
 
 _LEAST_KNOWN = 3
 """So many kinds of inputs must be known where the formulas are not the report's."""
@@ -34,6 +34,10 @@ def refuse_other_model(
     equations between its numbers and cells hold, or if its inputs are known.
     """
     fitted = exam.fitted
+    for role, source in inputs.cells.items():
+        if source.cell in exam.read and source.value <= 0 and role != "stop_velocity":
+            where = address(source.cell, True)
+            raise AnotherModel(f"{where}: {title(role)} is {source.value:g}: no impact has that")
     if fitted.probe is None:
         if not (_rows_agree(exam) and _steps_agree(found, inputs, slack)):
             raise AnotherModel(_sentence(exam, "deceleration"))

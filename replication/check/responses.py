@@ -149,7 +149,7 @@ def _typed_into(
 def sources(table: Table, fitted: Fit) -> list[Source]:
     """Everything that the table rests on, with its exponents."""
     values, found = table.evaluator.values, trace(table, fitted)
-    numbers = {p: v for p in found.cells if type(v := values[p]) is float and v}
+    numbers = {p: v for p in found.cells if type(v := values[p]) is float}
     if fitted.probe is None:
         return [Source(p, None, value, {}, found.cells[p]) for p, value in numbers.items()]
     base = _all_numbers(table, fitted, {}, {})
@@ -163,8 +163,9 @@ def sources(table: Table, fitted: Fit) -> list[Source]:
     result = [
         Source(p, None, value, exponents({p: value * _NUDGE}, {}), found.cells[p])
         for p, value in numbers.items()
-        if math.isfinite(value * _NUDGE)
+        if math.isfinite(value * _NUDGE) and value
     ]
+    result += [Source(p, None, 0.0, {}) for p, value in numbers.items() if not value]
     for key, (value, holder) in found.numbers.items():
         if not is_plain(value):
             result.append(Source(holder, key, value, exponents({}, {key: value * _NUDGE})))

@@ -133,6 +133,9 @@ def _fault(
     named = result_of(label) if label else None
     x, final = table.number("depth", result.k), table.number("depth", last)
     if result.k != last and x != final:
+        same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
+        if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label):
+            return None
         close = last - _NEAR_END <= result.k < last or named in ("depth", "ratio")
         shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
         if close and not _ANOTHER_ROW.search(label) and not (shows_last and named is None):
@@ -211,6 +214,8 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
                 continue
             kind = result_of(label)
             value = Fraction(float(evaluator.values[place]))  # type: ignore[arg-type]
+            if not value:
+                continue
             if kind == "ratio":
                 yield _judged(f"ratio-{case}", place, value, True)
             elif kind == "depth" and unit and same_dimension(unit, "m"):

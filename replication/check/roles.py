@@ -120,9 +120,10 @@ class _Roles:
 
     def by_response(self) -> None:
         """Give each family its cells: typed ones, and formulas that compute one of them."""
-        single = [source for source in self.inputs.sources if source.literal is None]
-        for source in single:
+        every = [source for source in self.inputs.sources if source.literal is None]
+        for source in every:
             self.roles(source)
+        single = [source for source in every if source.value]
         assign = {"size": self.size, "inertia": self.inertia, "strength": self.strength}
         for family, members in FAMILIES.items():
             own = [source for source in single if source.family == family]
@@ -176,6 +177,9 @@ class _Roles:
         """Give out mass and particle density."""
         cells, derived = self.inputs.cells, self.inputs.derived
         radius = cells.get("radius") or cells.get("diameter")
+        if made and all(source.cell is None for source in typed):
+            self.put(derived, "mass", made[0])  # of numbers that are typed into its formula
+            return
         for source in made:
             if self.rests_on(source, radius) and not _is_alias(source, typed):
                 self.put(derived, "mass", source)
@@ -198,8 +202,15 @@ class _Roles:
             small = source.value < _MOST_BETA and "beta" not in cells.keys() | others
             unsaid = "resistance" if len(typed) == 1 else "beta" if small else "flow_stress"
             self.put(cells, next(iter(label)) if len(label) == 1 else unsaid, source)
-        product = len(typed) > 1 or cells.keys() & {"beta", "flow_stress"}
+        for source in made:  # a beta or a flow stress may be computed
+            label = self.roles(source) & {"beta", "flow_stress"}
+            if len(label) == 1 and not label & cells.keys():
+                self.put(derived, next(iter(label)), source)
+        known = cells.keys() | derived.keys()
+        product = len(typed) > 1 or known & {"beta", "flow_stress"}
         for source in made:
+            if source in derived.values():
+                continue
             named = "resistance" in self.roles(source)
             if (
                 (product and not _is_alias(source, typed))
@@ -239,7 +250,8 @@ class _Roles:
         single = [source for source in self.inputs.sources if source.literal is None]
         for source in sorted(single, key=lambda s: s.computed):
             roles = self.roles(source)
-            if source.cell not in taken and len(roles) == 1 and not is_plain(source.value):
+            plain = is_plain(source.value) and source.value != 0
+            if source.cell not in taken and len(roles) == 1 and not plain:
                 (role,) = roles
                 if role not in cells and role not in derived:
                     (derived if source.computed else cells)[role] = source
@@ -248,6 +260,8 @@ class _Roles:
     def unread(self, place: Position) -> None:
         """Take a cell that nothing reads for the input that its label names, if none is known."""
         value, roles = self.evaluator.values.get(place), self.at(place)
+        if len(roles) > 1:  # a density that is not the other one
+            roles = roles - self.inputs.cells.keys()
         if type(value) is float and len(roles) == 1:
             (role,) = roles
             known = self.inputs.cells.get(role)

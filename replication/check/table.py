@@ -384,7 +384,7 @@ def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[Table]:
     """The tables of a workbook in the order of its sheets; `given` are lines that the user named."""
     found: list[Table] = []
     every = lines(evaluator)
-    if given:
+    if given.keys() & {"depth", "velocity", "velocity_initial", "velocity_final"}:
         line = next(iter(given.values()))
         beside = [o for o in every.get((line.sheet, line.across), []) if o.number not in
                   {g.number for g in given.values()}]  # fmt: skip
@@ -749,8 +749,8 @@ def _given(evaluator: Evaluator, given: Mapping[str, Line], beside: Sequence[Lin
     """The table of lines that the user named; the others are found as usual."""
     roles = {("velocity_initial" if r == "velocity" else r): o for r, o in given.items()}
     if "depth" not in roles:
-        partners = [(s, o) for o in beside for r in roles.values()
-                    for s in [grows_by(o, r, 0)[1]] if s > 0.5]  # fmt: skip
+        partners = [(s, o) for o in beside for r in roles.values() if o.grows
+                    for s in [max(grows_by(o, r, lag)[1] for lag in (0, 1))] if s > 0.5]  # fmt: skip
         if not partners:
             return None
         roles["depth"] = max(partners, key=lambda entry: entry[0])[1]

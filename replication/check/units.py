@@ -124,7 +124,7 @@ def _of_force(inputs: Inputs, D: Quantity, G: Quantity, H: Quantity) -> _Sides:
     diameter = cells.get("diameter") or derived.get("diameter")
     if diameter is not None:
         sides["D"] = (D, _of(diameter))
-        if R is not None and diameter.computed:
+        if R is not None:
             sides["diameter"] = (_of(diameter), _number(2.0) * R)
     if R is not None and "diameter" not in sides:
         sides["D"] = (D, _number(2.0) * R)
@@ -140,8 +140,10 @@ def _of_force(inputs: Inputs, D: Quantity, G: Quantity, H: Quantity) -> _Sides:
     if target is not None and M is not None:
         sides["G"] = (_number(2 / math.pi) * G * M, _of(target))
     strength, resistance = None, derived.get("resistance") or cells.get("resistance")
-    if {"beta", "flow_stress"} <= cells.keys():
-        strength = _number(cells["beta"].value) * _of(cells["flow_stress"])
+    beta = cells.get("beta") or derived.get("beta")
+    stress = cells.get("flow_stress") or derived.get("flow_stress")
+    if beta is not None and stress is not None:
+        strength = _number(beta.value) * _of(stress)
         if resistance is not None:
             sides["resistance"] = (_of(resistance), strength)
     strength = _of(resistance) if resistance is not None else strength
@@ -185,16 +187,18 @@ def mended(
     no such units exist.
     """
     items = list(dict.fromkeys(item for eq in found for item in eq.terms))
+    texts = {item for item in items if item in inputs.stated and item in inputs.powers}
     free = [item for item in items if item not in inputs.stated]
     if (result := _solve(found, inputs.powers, free, slack)) is not None:
         return result, []
     mends: list[tuple[bool, bool, int, Item, dict[Item, float]]] = []
     for item in items:
-        if item in inputs.stated:
+        if item in texts:
             changed = _solve(found, inputs.powers, [*free, item], slack)
             if changed is not None:
                 power = round(changed.get(item, 0.0) - inputs.powers.get(item, 0.0))
-                # What is not stated surely is changed first; units mostly lie a thousand apart.
+                # What is not stated surely is changed first; units mostly lie a thousand apart. A
+                # number that is the report's states no unit by itself, so it is not changed.
                 mends.append((inputs.stated[item], power % 3 != 0, len(mends), item, changed))
     if not mends:
         return None

@@ -390,7 +390,7 @@ def _nothing(evaluator: Evaluator) -> str:
         p for p in evaluator.formulas if isinstance(values.get(p), Error) and values[p] != "#N/A"
     ]
     first = min(wrong, key=lambda p: evaluator.order.get(p, 0), default=None)
-    instead = sorted(_labelled_texts(evaluator))
+    instead = sorted(_labelled_texts(evaluator) | _spoiling(evaluator, first))
     for place in instead:
         nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
     for place in sorted(evaluator.unknown)[:1]:
@@ -404,6 +404,12 @@ def _nothing(evaluator: Evaluator) -> str:
         return f"{nothing}: correct it, or save the workbook with a program that computes it"
     such = "--map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
     return f"{nothing}: say where they are, such as {such}"
+
+
+def _spoiling(evaluator: Evaluator, first: Position | None) -> set[Position]:
+    """Return the typed texts that make the first formula with an error give it."""
+    read = list(evaluator.precedents(first)) if first else []
+    return {p for p in read if type(evaluator.values.get(p)) is str and p not in evaluator.formulas}
 
 
 def _labelled_texts(evaluator: Evaluator) -> set[Position]:
@@ -453,8 +459,14 @@ def _without_numbers(evaluator: Evaluator, exams: Sequence[Examination]) -> Iter
 
 def _stale(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Difference]:
     """Report stored values that differ from what their formulas give."""
+    columns = [line for exam in exams for line in exam.table.lines.values()]
+    largest = {
+        line.place(i): max(map(abs, line.values.values())) for line in columns for i in line.values
+    }
     shapes: dict[Position, object] = {
-        place: evaluator.formulas[place] for place in stale(evaluator)
+        place: evaluator.formulas[place]
+        for place in stale(evaluator)
+        if not _is_rounding(evaluator, place, largest.get(place, 0.0))
     }
     for run in runs(shapes, exams[0].table.across):
         stored, value = evaluator.book[run[0]].value, evaluator.values.get(run[0])
@@ -462,6 +474,17 @@ def _stale(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Diffe
         rank = next((r for r in ranks if r[0] < 2), ranks[0])  # in the table that it belongs to
         text = "the stored value is not what the formula gives"
         yield Difference("stale value", tuple(run), value, stored, text, rank)
+
+
+def _is_rounding(evaluator: Evaluator, place: Position, largest: float) -> bool:
+    """Whether a stored value is off by the rounding of the largest number of its column.
+
+    What is left of 500 m/s at the end of a column carries the rounding of 500 m/s.
+    """
+    stored, value = evaluator.book[place].value, evaluator.values.get(place)
+    if type(stored) is not float or type(value) is not float:
+        return False
+    return abs(stored - value) <= 1e-14 * largest
 
 
 def _uncalculated(evaluator: Evaluator) -> Iterator[Difference]:
