@@ -171,8 +171,8 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
     """Report rows that end before the stop.
 
     With other inputs, or the other beta, the rows prepared for the former inputs run out, and an
-    excerpt has few rows. But rows of the report's case that end shortly before the stop were ended
-    at another velocity.
+    excerpt has few rows; a single row may be left out. But other rows of the report's case that end
+    shortly before the stop were ended at another velocity.
     """
     table, six = exam.table, exam.intended
     assert six is not None
@@ -187,7 +187,7 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
     faults = [d for d in exam.differences if d.kind not in NO_FAULT or d.kind == "other input"]
     is_report = case_of(six, max(1e-6, 10 * exam.fitted.slack)) is not None
     column = end_of_row(table)[0]
-    if is_report and not faults and not prepared and 2 * table.steps >= steps:
+    if is_report and not faults and not prepared and steps // 2 <= table.steps < steps - 1:
         exam.add("other scheme", [table.place(column, table.steps)], None, f"{OTHER_STOP}: {text}")
         exam.ends = True
     else:

@@ -203,7 +203,11 @@ def _broken_equations(
     rests_on = {"diameter": title("radius"), "mass": "the radius and the particle density",
                 "resistance": "beta and the flow stress"}  # fmt: skip
     for role, source in rests_on.items():
-        typed_over = role in times and _is_typed_over(inputs, role, times[role])
+        typed_over = (
+            exam.fitted.probe is not None
+            and role in times
+            and _is_typed_over(inputs, role, times[role])
+        )
         if typed_over or (role in broken and not _is_elsewhere(inputs, role)):
             _wrong_cell(exam, inputs, role, source, times[role], broken.get(role, ""))
     _wrong_force(exam, inputs, broken, times)

@@ -112,6 +112,8 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
         if read & (wrong | accused):
             wrong.add(result.place)
             continue
+        if any(r.place in read and r.over_diameter for r in found):
+            continue  # it shows another result, which is judged
         label, unit, sure = label_of(result.place, evaluator)
         fault = _fault(result, found, label, unit, sure)
         if fault is not None:

@@ -194,6 +194,13 @@ class _Roles:
         """Give out resistance, beta and flow stress."""
         cells, derived = self.inputs.cells, self.inputs.derived
         members = set(FAMILIES["strength"])
+        for source in made:  # a beta or a flow stress may be computed from other numbers
+            label = self.roles(source) & {"beta", "flow_stress"}
+            if len(label) == 1:
+                own = [other for other in typed if self.rests_on(source, other)]
+                if not any(self.roles(other) & members for other in own):
+                    self.put(derived, next(iter(label)), source)
+                    typed = [other for other in typed if other not in own]
         if len(typed) == 1 and made and not self.roles(typed[0]) & members:
             typed = [*typed, *self.without_effect(made)]
         for source in sorted(typed, key=lambda s: s.value):
@@ -202,10 +209,6 @@ class _Roles:
             small = source.value < _MOST_BETA and "beta" not in cells.keys() | others
             unsaid = "resistance" if len(typed) == 1 else "beta" if small else "flow_stress"
             self.put(cells, next(iter(label)) if len(label) == 1 else unsaid, source)
-        for source in made:  # a beta or a flow stress may be computed
-            label = self.roles(source) & {"beta", "flow_stress"}
-            if len(label) == 1 and not label & cells.keys():
-                self.put(derived, next(iter(label)), source)
         known = cells.keys() | derived.keys()
         product = len(typed) > 1 or known & {"beta", "flow_stress"}
         for source in made:

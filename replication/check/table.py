@@ -761,7 +761,11 @@ def _given(evaluator: Evaluator, given: Mapping[str, Line], beside: Sequence[Lin
         roles["velocity_initial"] = max(partners, key=lambda entry: entry[0])[1]
     speed = roles.get("velocity_initial", roles.get("velocity_final"))
     assert speed is not None
-    if "velocity" in given and "velocity_final" not in roles:
+    starts = [o for o in beside if repeats(o, speed) > 0.5]
+    if "velocity" in given and "velocity_final" not in roles and starts:
+        roles |= {"velocity_initial": starts[0], "velocity_final": speed}
+        speed = starts[0]
+    elif "velocity" in given and "velocity_final" not in roles:
         lag = grows_by(roles["depth"], speed, 1)[1] > grows_by(roles["depth"], speed, 0)[1]
         if lag and _is_ahead(speed, roles["depth"]):
             roles["velocity_final"] = roles.pop("velocity_initial")

@@ -472,6 +472,7 @@ def _stale(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Diffe
         stored, value = evaluator.book[run[0]].value, evaluator.values.get(run[0])
         ranks = [exam.rank(run[0]) for exam in exams]
         rank = next((r for r in ranks if r[0] < 2), ranks[0])  # in the table that it belongs to
+        stored, value = (str(x) if isinstance(x, Error) else x for x in (stored, value))
         text = "the stored value is not what the formula gives"
         yield Difference("stale value", tuple(run), value, stored, text, rank)
 
