@@ -185,7 +185,7 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
         for a in ours for b in ours if a != b
     )  # fmt: skip
     faults = [d for d in exam.differences if d.kind not in NO_FAULT or d.kind == "other input"]
-    is_report = case_of(six, max(1e-6, 10 * exam.fitted.slack)) is not None
+    is_report = stop == 1.0 and case_of(six, max(1e-6, 10 * exam.fitted.slack)) is not None
     column = end_of_row(table)[0]
     if is_report and not faults and not prepared and steps // 2 <= table.steps < steps - 1:
         exam.add("other scheme", [table.place(column, table.steps)], None, f"{OTHER_STOP}: {text}")

@@ -175,7 +175,7 @@ def _without_unit(
     """
     broken: dict[str, str] = {}
     mendable: list[Equation] = []
-    vague = _VAGUE * slack if exam.fitted.probe is None else 0.0
+    vague = max(_VAGUE * slack, math.log10(1.01)) if exam.fitted.probe is None else 0.0
     for eq in found:
         rest = eq.residual(inputs.powers)
         free = [item for item in eq.terms if item not in inputs.stated]

@@ -21,7 +21,7 @@ def is_sure(text: str) -> bool:
 def label_of(place: Position, evaluator: Evaluator) -> tuple[str, str | None, bool]:
     """The label of a cell, its unit if one is stated, and whether that is sure.
 
-    Of the texts around it, the nearest that names an input is its label, or else the nearest.
+    A text at its left is its label; or else the nearest text that names an input, or the nearest.
     """
     sheet, row, column = place
     left, above, right = (
@@ -36,7 +36,7 @@ def label_of(place: Position, evaluator: Evaluator) -> tuple[str, str | None, bo
     texts += _further(place, evaluator, above is not None and is_unit(above) is not None)
     if right and not texts and not is_unit(right):
         texts.append(right)
-    named = [text for text in texts if input_roles(text, unit)]
+    named = [text for text in texts if input_roles(text, unit)] if left not in texts else []
     label = (named or texts or [""])[0]
     if unit is not None:
         return label, unit, True
