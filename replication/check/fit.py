@@ -118,7 +118,8 @@ class Fit:
     `six` are its numbers, `time` is by how much the time grows, `sign` is -1 where decelerations
     are negative. `ways` are the ways in which columns are filled, None for a formula that follows
     none; `brakes` is the column in which the force is seen. `force` is missing if there is none, or
-    if there are no formulas; so is then `probe`. `slack` is the relative uncertainty of the numbers.
+    if there are no formulas; so is then `probe`. `time_adds` and `depth_adds` say whether the formula
+    of a time or a depth adds to the one before, or is a sum by itself. `slack` is the relative uncertainty of the numbers.
     """
 
     six: Six
@@ -131,6 +132,7 @@ class Fit:
     probe: Probe | None = None
     slack: float = EXACT
     time_adds: bool = False
+    depth_adds: bool = True
 
     @property
     def odd(self) -> list[Variant | None]:
@@ -185,7 +187,10 @@ def _probed(table: Table, probe: Probe) -> Fit:
             e = c  # the velocity repeats the force in its own formula
     adds = "time" in table.lines and ("time", -1) in probe.answers(probe.state["time", 0])
     six = Six(math.nan, math.nan, math.nan, c, e, impact_velocity(table))
-    fitted = Fit(six, time_step(table), sign, ways, end[0], probe=probe, time_adds=adds)
+    grows = ("depth", -1) in probe.answers(probe.state["depth", 0])
+    fitted = Fit(
+        six, time_step(table), sign, ways, end[0], probe=probe, time_adds=adds, depth_adds=grows
+    )
     if line is not None and not line.computed:
         return replace(fitted, brakes="deceleration")
     place = falls if line is None else probe.state[brake]
@@ -252,6 +257,8 @@ def _advance(table: Table, probe: Probe) -> tuple[float, Variant | None]:
         step = probe.value(place, {}, {}, {}) - probe.base[before]
         return step / impact_velocity(table), VARIANTS["impact velocity"]
     c = sum(slopes[state] for state in speeds) if speeds else math.nan
+    if not adds and _is_sum(table, probe, slopes):
+        return slopes[start_of_row(table)], REPORT["depth"]
     if not adds:
         return c, _without_adding(table, speeds, others)
     if others and all(role == "deceleration" for role, _ in others):
@@ -263,6 +270,18 @@ def _advance(table: Table, probe: Probe) -> tuple[float, Variant | None]:
     elif not math.isclose(*(slopes[state] for state in speeds[:2]), rel_tol=1e-9):
         return math.nan, None
     return c, _with_speeds(table, speeds)
+
+
+def _is_sum(table: Table, probe: Probe, slopes: Mapping[State, float]) -> bool:
+    """Whether a depth is a sum of all velocities: it grows by one of them from row to row."""
+    start = start_of_row(table)
+    k = probe.k
+    now, before = table.number("depth", k), table.number("depth", k - 1)
+    u = table.number(start[0], k + start[1])
+    if start not in slopes or len(slopes) < 2 or None in (now, before, u):
+        return False
+    assert now is not None and before is not None and u is not None
+    return math.isclose(now - before, slopes[start] * u, rel_tol=1e-7)
 
 
 def _without_adding(
@@ -478,7 +497,8 @@ def numbers_with(fitted: Fit, table: Table, cells: Cells, literals: Literals) ->
     assert probe is not None
     base, brake = probe.base, ("deceleration", 0)
     place = probe.state["depth", 0]
-    result = {"c": probe.value(place, {}, cells, literals) - base["depth", -1]}
+    depth = probe.value(place, {}, cells, literals)
+    result = {"c": depth - base["depth", -1] if fitted.depth_adds else depth}
     if fitted.brakes == "deceleration":
         u, falls = base[start_of_row(table)], probe.state[end_of_row(table)]
         strong = {brake: u / six.e} if six.e and math.isfinite(six.e) else {}
@@ -487,9 +507,9 @@ def numbers_with(fitted: Fit, table: Table, cells: Cells, literals: Literals) ->
         speed = abs(six.V) / 3
         if six.G > 0 and six.H > 0 and not fitted.centered:
             speed = 0.5 * math.sqrt(six.H / six.G)
-        depth = 0.1 * six.D if 0 < six.D < math.inf else abs(base["depth", 0]) / 10
+        small = 0.1 * six.D if 0 < six.D < math.inf else abs(base["depth", 0]) / 10
         force = replace(fitted.force, cells=cells, literals=literals)
-        numbers = centered_numbers(force, depth, speed, abs(six.e) / 2 * fitted.centered)
+        numbers = centered_numbers(force, small, speed, abs(six.e) / 2 * fitted.centered)
         if numbers is not None:
             result |= dict(zip("GHD", numbers, strict=True))
     if "time" in table.lines and table.lines["time"].computed:
