@@ -5,7 +5,7 @@ own row. So a wrong cell is found where it stands, and the rows that follow from
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from replication.check.examination import Examination
 from replication.check.fit import Probe
@@ -109,9 +109,33 @@ def odd_cells(exam: Examination, inputs: Inputs) -> None:
                 exam.add("typed number", cells, None, text)
                 continue
         _judge_line(exam, inputs, line, role)
-    for helper in feeding(table):
-        if helper.usual is not None:
-            _judge_line(exam, inputs, helper, None)
+    helpers = [line for line in feeding(table) if line.usual is not None]
+    for helper in helpers:
+        _judge_line(exam, inputs, helper, None)
+    _broken_off(exam, [*table.lines.values(), *helpers])
+
+
+def _broken_off(exam: Examination, lines: Sequence[Line]) -> None:
+    """Report what ends a table before its formulas do: a text, or a formula that gives an error."""
+    evaluator, index = exam.table.evaluator, max(exam.table.rows.values()) + 1
+    usual = [o for o in lines if o.usual and evaluator.formulas.get(o.place(index)) is o.usual]
+    values = [evaluator.values.get(line.place(index)) for line in usual]
+    if not any(isinstance(value, Error) and value != "#N/A" for value in values):
+        return
+    for line in lines:
+        place = line.place(index)
+        value, shape = evaluator.values.get(place), evaluator.formulas.get(place)
+        if line in usual or type(value) is float or (value is None and shape is None):
+            continue
+        kind = "odd formula" if shape is not None else "typed number"
+        what = formula_at(exam, place) if shape is not None else "a text is typed here, and"
+        text = (
+            f"{what} gives no number: the table breaks off"
+            if shape is not None
+            else (f"{what} the table breaks off")
+        )
+        exam.add(kind, [place], None, text, quoted(value) if shape is None else str(value))
+        return
 
 
 def _rows_of(table: Table, line: Line, role: str | None) -> Iterator[tuple[int, Position]]:
@@ -137,6 +161,9 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
         if role is None and line.place(first)[1:] > place[1:]:
             continue
         is_last = k == table.steps and role in ("deceleration", "velocity_final")
+        end = table.lines.get("velocity_final")
+        if role == "deceleration" and end is not None and end.computed:
+            is_last = False  # the velocity at the end of the row needs it
         if is_last and shape is None and place not in evaluator.values:
             continue
         probed += 1

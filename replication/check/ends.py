@@ -96,6 +96,10 @@ def _first_velocity(exam: Examination, inputs: Inputs, idle: Sequence[Position])
         shown = formula_at(exam, place) if is_formula else "the first velocity"
         exam.add(kind, [place], impact, f"{shown} is not the velocity of the impact")
         return
+    if is_formula and impact is not None and (zero := table.place("velocity_initial", 0)) != place:
+        read = [area.corner for area in table.evaluator.areas(place)]
+        if read == [zero]:  # it only repeats the velocity of the impact
+            place, is_formula = zero, zero in table.evaluator.formulas
     if is_formula:
         return
     known = _velocity_cell(inputs, idle, first, values)
@@ -218,7 +222,8 @@ def _stop_velocity(
             for each in (value * factor for factor in units):
                 if last < each <= before and each <= _SLOW * exam.fitted.six.V * unit:
                     return float(each)
-    return 1.0 if exam.firm_speed else min(1.0, before)
+    # In a unit that nobody states, the rows should end with the first velocity below zero.
+    return 1.0 if exam.firm_speed else min([1.0, *(v for v in speeds.values() if v > 0)])
 
 
 def _shows_stop(exam: Examination, below: int) -> bool:

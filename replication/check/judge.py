@@ -15,7 +15,7 @@ from replication.check.roles import CLOSE, Inputs, recognize
 from replication.check.rows import fit_table
 from replication.check.six import REPORT, VARIANTS, end_of_row, first_speed, start_of_row
 from replication.check.table import Table, address
-from replication.check.taken import compare_with_report, intend, report_inputs, take_inputs
+from replication.check.taken import compare_with_report, intend, is_report, take_inputs
 from replication.check.units import Equation, Quantity, equations, mended, state_units, unit_power
 from replication.check.words import times_too, title, unit_text
 from spreadsheets.foreign import Position
@@ -81,8 +81,7 @@ def examine(
 def _trust_report(inputs: Inputs) -> None:
     """A number without a unit that is the report's in SI units is in SI units, though not surely."""
     for role, source in inputs.cells.items():
-        known = report_inputs().get(role, ())
-        if source.item not in inputs.stated and any(near(source.value, x) for x in known):
+        if source.item not in inputs.stated and is_report(role, source.value):
             inputs.stated[source.item] = False
 
 

@@ -164,7 +164,7 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         if entry.place and role in report and role != "stop_velocity"
         and (role in inputs.cells or role not in inputs.derived)
     ]  # fmt: skip
-    others = [role for role in typed if not _is_report(role, exam.inputs[role].si)]
+    others = [role for role in typed if not is_report(role, exam.inputs[role].si)]
     accused = {d.place for d in exam.differences}
     for role in others:
         entry = exam.inputs[role]
@@ -186,9 +186,9 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         exam.add("other input", [entry.place], None, text)
 
 
-def _is_report(role: str, value: float) -> bool:
+def is_report(role: str, value: float) -> bool:
     """Whether an input in SI units is the report's, or its second step."""
-    known = (*report_inputs()[role], *([OTHER_STEP] if role == "step" else []))
+    known = (*report_inputs().get(role, ()), *([OTHER_STEP] if role == "step" else []))
     return any(near(value, each) for each in known)
 
 
