@@ -10,13 +10,13 @@ from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import Examination, near
 from replication.check.fit import is_part
 from replication.check.model import refuse_other_model
-from replication.check.responses import Item
-from replication.check.roles import CLOSE, Inputs, recognize
+from replication.check.responses import CLOSE, Item, unit_power
+from replication.check.roles import Inputs, recognize
 from replication.check.rows import fit_table
 from replication.check.six import REPORT, VARIANTS, end_of_row, first_speed, start_of_row
 from replication.check.table import Table, address
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
-from replication.check.units import Equation, Quantity, equations, mended, state_units, unit_power
+from replication.check.units import Equation, Quantity, equations, mended, state_units
 from replication.check.words import times_too, title, unit_text
 from spreadsheets.foreign import Position
 

@@ -10,6 +10,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from reference.units import to_si
 from replication.check.fit import Cells, Fit, Literals, numbers_with
 from replication.check.six import first_speed
 from replication.check.table import Table
@@ -29,6 +30,13 @@ _MANY = 400
 """So many cells behind a row are looked at."""
 _FEW = 64
 """Of larger ranges the cells are not looked at."""
+
+CLOSE = 4e-10
+"""The decimal logarithm of a ratio up to which two numbers agree: 1e-9."""
+_UNUSUAL = tuple(
+    math.log10(float(to_si(unit))) % 1 for unit in ("in", "lb", "psi", "lbf", "gf", "ft")
+)
+"""The digits of units that are no powers of ten: a cell that states no unit may have one."""
 
 Item = tuple[str, object]
 """What has a unit: a column, by its role; a cell; or a number typed into a formula."""
@@ -180,3 +188,12 @@ def _all_numbers(table: Table, fitted: Fit, cells: Cells, literals: Literals) ->
         value = table.evaluator.value(start, cells, literals, cone)
         result["V"] = value if type(value) is float else math.nan
     return result
+
+
+def unit_power(power: float, slack: float) -> float | None:
+    """The power of ten between two units, or that of an unusual unit; None if it is neither."""
+    near = round(power)
+    if abs(power - near) <= slack + 2 * CLOSE:
+        return float(near)
+    unusual = any(abs((power - u) - round(power - u)) < 1e-6 for u in _UNUSUAL)
+    return power if unusual else None

@@ -10,14 +10,12 @@ from dataclasses import dataclass, field
 
 from replication.check.fit import Fit
 from replication.check.labels import label_of
-from replication.check.responses import FAMILIES, Item, Source, is_plain, sources
+from replication.check.responses import CLOSE, FAMILIES, Item, Source, is_plain, sources, unit_power
 from replication.check.table import Table
 from replication.check.words import input_roles
 from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Position
 
-CLOSE = 4e-10
-"""The decimal logarithm of a ratio up to which two numbers agree: 1e-9."""
 _MOST_BETA = 1e3
 """A beta is a small number; a flow stress, in whatever unit, mostly is not."""
 
@@ -298,6 +296,6 @@ def _is_alias(source: Source, others: Sequence[Source]) -> bool:
     for other in others:
         ratio = source.value / other.value
         alike = all(abs(p - other.powers.get(n, 0.0)) < 0.02 for n, p in source.powers.items())
-        if alike and ratio > 0 and abs(math.log10(ratio) - round(math.log10(ratio))) < 1e-12:
+        if alike and ratio > 0 and unit_power(math.log10(ratio), 0.0) is not None:
             return True
     return False

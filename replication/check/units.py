@@ -11,18 +11,14 @@ from dataclasses import dataclass, field
 
 from reference.units import same_dimension, to_si
 from replication.check.fit import Fit
-from replication.check.responses import Item, Source
-from replication.check.roles import CLOSE, Inputs
+from replication.check.responses import CLOSE, Item, Source, unit_power
+from replication.check.roles import Inputs
 from replication.check.six import start_of_row
 from replication.check.table import Table
 from replication.check.words import COLUMNS, INPUTS
 
 _MOST_CHANGES = 6
 """So many units that nobody states may have to be found together."""
-_UNUSUAL = tuple(
-    math.log10(float(to_si(unit))) % 1 for unit in ("in", "lb", "psi", "lbf", "gf", "ft")
-)
-"""The digits of units that are no powers of ten: a cell that states no unit may have one."""
 
 
 @dataclass(frozen=True)
@@ -169,15 +165,6 @@ def state_units(table: Table, inputs: Inputs) -> None:
             inputs.stated.pop(source.item, None)
 
 
-def unit_power(power: float, slack: float) -> float | None:
-    """The power of ten between two units, or that of an unusual unit; None if it is neither."""
-    near = round(power)
-    if abs(power - near) <= slack + 2 * CLOSE:
-        return float(near)
-    unusual = any(abs((power - u) - round(power - u)) < 1e-6 for u in _UNUSUAL)
-    return power if unusual else None
-
-
 def mended(
     found: Sequence[Equation], inputs: Inputs, slack: float
 ) -> tuple[dict[Item, float], list[Item]] | None:
@@ -203,7 +190,8 @@ def mended(
     if not mends:
         return None
     *_, item, changed = min(mends, key=lambda entry: entry[:3])
-    return changed, [item]
+    same = changed.get(item, 0.0) == inputs.powers.get(item, 0.0)
+    return changed, [] if same else [item]
 
 
 def _solve(
@@ -215,7 +203,12 @@ def _solve(
         result = _changed(left, dict(powers), list(free), most, slack)
         if result is not None:
             holds = all(_mend_own(eq, own, result, slack) for eq, own in reversed(later))
-            return result if holds else None
+            if holds:
+                return result
+            break
+    for most in range(_MOST_CHANGES):  # the units set apart do not fit: all equations at once
+        if (result := _changed(found, dict(powers), list(free), most, slack)) is not None:
+            return result
     return None
 
 
