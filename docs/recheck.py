@@ -89,23 +89,35 @@ def judged(part: Table, target: Interval) -> Iterator[str]:
 
 
 def without_a_range(claim: Table, claims: dict[str, Table], constants: Table) -> tuple[str, ...]:
-    """Return the verdicts that are possible for a claim without a proven range."""
+    """Return the verdicts that are possible for a claim without a proven range.
+
+    `constants` has for each constant of an equation the values that pass its checks, and the kind
+    of the equation.
+    """
     own = printing(claim)
     if claim["restates"]:  # consistent if some value prints like both
         agrees = own.meets(printing(claims[claim["restates"]]))
         return ("consistent" if agrees else "inconsistent",)
     if claim["id"] in constants:  # reproduced if no other value passes the checks of its equation
-        needed = constants[claim["id"]]
-        if len(needed) != 1:
-            return ("not checkable", "undecided")
-        return ("reproduced" if needed == [str(own.low)] else "not reproduced",)
+        needed, kind = constants[claim["id"]]
+        if len(needed) != 1:  # what defines a symbol needs no check
+            return ("not checkable", "undecided", "consistent")
+        if needed != [str(own.low)]:
+            return ("not reproduced",)
+        if kind in ("definition", "repeat"):
+            return ("consistent",)
+        # Of a law that is quoted, only the law itself may decide it, which derives nothing.
+        return ("reproduced", "not checkable") if kind == "taken over" else ("reproduced",)
     if claim["sources"]:
         agrees = any(source["agrees"] for source in claim["sources"])
         return ("agrees with public sources" if agrees else "differs from public sources",)
     if claim["shown_by"]:  # a choice, consistent if numbers computed from it come out as printed
         agrees = between(claim["shown_by"]["interval"]).contains((own.low + own.high) / 2)
         return ("consistent" if agrees else "inconsistent",)
-    return ("consistent", "not checkable")  # a count, or a number that nothing decides
+    if claim["compared"]:  # with what limits it, in words
+        verdicts = ("consistent", "inconsistent")
+        return (*verdicts, "agrees with public sources", "differs from public sources")
+    return ("consistent", "not checkable")  # a count, a definition, or nothing decides it
 
 
 def of_claim(claim: Table, claims: dict[str, Table], constants: Table) -> Iterator[str]:
@@ -132,7 +144,9 @@ def of_claim(claim: Table, claims: dict[str, Table], constants: Table) -> Iterat
 def differences(audit: Table) -> Iterator[str]:
     """Yield a line for each verdict or count that does not follow from the file's fractions."""
     claims = {claim["id"]: claim for claim in audit["claims"]}
-    constants = {c["claim"]: c["needed"] for e in audit["equations"] for c in e["constants"]}
+    constants = {
+        c["claim"]: (c["needed"], e["kind"]) for e in audit["equations"] for c in e["constants"]
+    }
     for name, claim in claims.items():
         yield from (f"{name}: {problem}" for problem in of_claim(claim, claims, constants))
     counts = Counter(claim["verdict"] for claim in audit["claims"])

@@ -33,12 +33,14 @@ class Computation:
     """A computation: its function, and what else the ledger and the audit ask of it.
 
     `equations` are the ids of the printed equations that it evaluates. `restates` says that it only
-    repeats or counts what the report prints elsewhere.
+    repeats or counts what the report prints elsewhere. With `by_definition` it scales or selects
+    one printed number: its result can only fail if that number does.
     """
 
     function: Function
     equations: tuple[str, ...] = ()
     restates: bool = False
+    by_definition: bool = False
 
     @property
     def name(self) -> str:
@@ -70,11 +72,14 @@ COMPUTATIONS: dict[str, Computation] = {}
 """Every computation, by the name of its function."""
 
 
-def computation(*equations: str, restates: bool = False) -> Callable[[Function], Function]:
+def computation(
+    *equations: str, restates: bool = False, by_definition: bool = False
+) -> Callable[[Function], Function]:
     """Enter a function into COMPUTATIONS, with the ids of the equations that it evaluates."""
 
     def enter(function: Function) -> Function:
-        COMPUTATIONS[function.__name__] = Computation(function, equations, restates)
+        name = function.__name__
+        COMPUTATIONS[name] = Computation(function, equations, restates, by_definition)
         return function
 
     return enter
@@ -95,7 +100,7 @@ def count(ar: Arithmetic, **values: Number) -> Fraction:
     return Fraction(len(values))
 
 
-@computation()
+@computation(by_definition=True)
 def half(ar: Arithmetic, value: Number) -> Number:
     """half of the printed number"""
     return value / 2
@@ -122,19 +127,19 @@ def strain_rate(ar: Arithmetic, velocity: Number, length: Number) -> Number:
 # The sphere
 
 
-@computation("diameter")
+@computation("diameter", by_definition=True)
 def radius_of(ar: Arithmetic, eq: Equations, diameter: Number) -> Number:
     """radius of a sphere of that diameter"""
     return diameter / eq["diameter"](ar, R=1)
 
 
-@computation("diameter")
+@computation("diameter", by_definition=True)
 def diameter_of(ar: Arithmetic, eq: Equations, radius: Number) -> Number:
     """diameter of a sphere of that radius"""
     return eq["diameter"](ar, R=radius)
 
 
-@computation()
+@computation(by_definition=True)
 def sphere_length_ratio(ar: Arithmetic, length_ratio: Number) -> Number:
     """L/D of a cylinder with the sphere's diameter and mass, from that of one around the sphere"""
     return length_ratio * 2 / 3  # (4/3) pi R^3 over pi R^2 2R
@@ -169,7 +174,7 @@ def crater_depth(ar: Arithmetic, volume_ratio: Number, diameter: Number) -> Numb
     return crater_normalized_depth(ar, volume_ratio) * diameter / 2
 
 
-@computation()
+@computation(by_definition=True)
 def crater_depth_over_diameter(ar: Arithmetic, volume_ratio: Number) -> Number:
     """X/D at the given CV/PV, from Eqs. 2 and 3"""
     return crater_normalized_depth(ar, volume_ratio) / 2
@@ -187,13 +192,13 @@ def contact_diameter(
 # The resistance of the target
 
 
-@computation("eq7")
+@computation("eq7", by_definition=True)
 def target_resistance(ar: Arithmetic, eq: Equations, beta: Number, flow_stress: Number) -> Number:
     """R_t = beta Y_t, Eq. 7"""
     return eq["eq7"](ar, beta=beta, Y_t=flow_stress)
 
 
-@computation()
+@computation(by_definition=True)
 def force_power(ar: Arithmetic) -> Fraction:
     """the power of a length that makes a force of a stress, for Eq. 8"""
     return (unit_dimension("N") / unit_dimension("Pa")).powers[1]
@@ -221,13 +226,13 @@ def walker_anderson_beta(
     return eq["eq10"](ar, alpha=eq["eq11"](ar, E_t=elastic_modulus, Y_t=flow_stress))
 
 
-@computation()
+@computation(by_definition=True)
 def least_beta(ar: Arithmetic, **betas: Number) -> Number:
     """the least of the three estimates of beta"""
     return reduce(ar.least, betas.values())
 
 
-@computation()
+@computation(by_definition=True)
 def greatest_beta(ar: Arithmetic, **betas: Number) -> Number:
     """the greatest of the three estimates of beta"""
     return reduce(ar.greatest, betas.values())
@@ -236,15 +241,15 @@ def greatest_beta(ar: Arithmetic, **betas: Number) -> Number:
 # The sheet: `inputs` are those of `reference.motion.sheet_rows`
 
 
-@computation()
+@computation(by_definition=True)
 def row_time(ar: Arithmetic, row: int, step: Number) -> Number:
     """time that closes the row, k dt"""
     return row * step
 
 
-@computation()
+@computation(by_definition=True)
 def row_velocity_initial(ar: Arithmetic, row: int, scheme: Scheme, **inputs: Number) -> Number:
-    """velocity at the start of the row's time step"""
+    """velocity at the start of the row's time step"""  # the final one of the row before
     return _row(ar, row, scheme, **inputs).velocity_initial
 
 
@@ -271,7 +276,7 @@ def _row(ar: Arithmetic, row: int, scheme: Scheme, **inputs: Number) -> Row:
     return next(islice(sheet_rows(ar, scheme=scheme, **inputs), row - 1, None))
 
 
-@computation("eq6", "eqA-3", "eq3")
+@computation("eq6", "eqA-3", "eq3", by_definition=True)
 def deceleration_at_start(
     ar: Arithmetic,
     eq: Equations,

@@ -27,19 +27,24 @@ Symbols = Any
 class Check(msgspec.Struct, frozen=True):
     """The outcome of one condition of a derivation: what must hold, and whether it does.
 
-    `factor` is the printed over the derived side where they differ by a constant number.
+    `factor` is the printed over the derived side where they differ by a constant number. With
+    `quotes` the condition is the law itself that the equation quotes: it tells a misprint, and
+    derives nothing.
     """
 
     says: str
     holds: bool
     factor: Fraction | None = None
+    quotes: bool = False
 
 
-def equal(says: str, printed: RationalFunction, derived: RationalFunction | int) -> Check:
+def equal(
+    says: str, printed: RationalFunction, derived: RationalFunction | int, *, quotes: bool = False
+) -> Check:
     """Check that a printed side equals a derived one for all values of the symbols."""
     holds = bool(printed == derived)
     factor = None if holds or derived == 0 else RationalFunctions.constant(printed / derived)
-    return Check(says, holds, factor)
+    return Check(says, holds, factor, quotes)
 
 
 class SymbolicEquations:
@@ -163,10 +168,10 @@ def stress_on_the_centerline(eq: SymbolicEquations, s: Symbols) -> Iterator[Chec
     says = (
         "in the particle the slope of the stress over v is the density times the relative velocity"
     )
-    yield equal(says, eq.slope("eq5", "v", 1), s.rho_p * (s.v - s.u))
+    yield equal(says, eq.slope("eq5", "v", 1), s.rho_p * (s.v - s.u), quotes=True)
     yield equal("a target at rest exerts its resistance", eq.right("eq5", u=0), s.R_t)
     says = "in the target its slope over u is the density times the velocity"
-    yield equal(says, eq.slope("eq5", "u"), s.rho_t * s.u)
+    yield equal(says, eq.slope("eq5", "u"), s.rho_t * s.u, quotes=True)
 
 
 @derivation("eq6", "eq5")

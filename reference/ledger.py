@@ -158,7 +158,7 @@ class Equation(Entry, frozen=True, eq=False):
     id: str
     title: str
     quote: str
-    kind: Literal["derived", "definition", "taken over"]
+    kind: Literal["derived", "definition", "repeat", "taken over"]
     follows_from: str
     place: Place = Place()
 
@@ -191,7 +191,6 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     same_as: str | None = None
     given: str | None = None
     shown_by: Sequence[str] = ()
-    workbook: str | None = None
     text: str = ""
     place: Place = Place()
     why: str | None = None
@@ -317,7 +316,6 @@ class Lines(Entry, frozen=True):
     quote: str
     what: Mapping[str, Any]
     basis: Mapping[str, Any] = {}
-    workbook: str | None = None
 
 
 class Column(Entry, frozen=True):
@@ -355,8 +353,6 @@ def entry(name: str, lines: Lines, kind: type[Entry]) -> Any:
     Raises msgspec.ValidationError, with its id, for an unknown key or a missing one.
     """
     keys = {**lines.what, **lines.basis, "id": name, "quote": lines.quote}
-    if lines.workbook:
-        keys["workbook"] = lines.workbook
     try:
         return msgspec.convert(keys, kind)
     except msgspec.ValidationError as error:
@@ -438,8 +434,6 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             within=next(around, None),
             chosen=original.given == "choice",
             bound=_bound(claim, located),
-            # The workbook's sheet Table A-1 has a number of that table in the same cell.
-            workbook=f"Table A-1!{claim.cell}" if claim.cell else claim.workbook,
         )
 
     # The printed equations

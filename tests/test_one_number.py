@@ -19,6 +19,7 @@ from replication.audit.audit import Audit
 from replication.audit.record import Record
 from replication.report import contents, summary
 from replication.workbook import build
+from spreadsheets.sheets import cells_of_claims
 
 DEPTH = "depth-beta-5"
 COMPUTED = run(BETA_5).final_depth * 1e6
@@ -108,7 +109,7 @@ def test_the_workbook_has_it_beside_the_cell_that_computes_it(
     text: str, verdict: Verdict, audited: Record, ledger: Ledger
 ) -> None:
     cells = build(record=audited, ledger=ledger).cells
-    name, _, address = str(ledger.claims[DEPTH].workbook).partition("!")
+    name, _, address = cells_of_claims()[DEPTH].partition("!")
     computed = cells[name][address]
     assert isinstance(computed, float)
     assert isclose(computed, COMPUTED, rel_tol=1e-12)

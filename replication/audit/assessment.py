@@ -41,6 +41,20 @@ class Verdict(StrEnum):
         return self.is_open or self is Verdict.DIFFERS
 
 
+class Standing(StrEnum):
+    """What a reproduced number tells: which inputs would have to be wrong for it to fail?
+
+    INDEPENDENT: any of several printed numbers, or the equation that computes it. EVIDENCE: none,
+    as an input was inferred from it. BY_DEFINITION: the one printed number that it scales or
+    selects. REPEATS: those of an earlier number, which would have failed with it.
+    """
+
+    INDEPENDENT = "independent"
+    EVIDENCE = "evidence"
+    BY_DEFINITION = "by definition"
+    REPEATS = "repeats"
+
+
 class Judgement(msgspec.Struct, frozen=True):
     """The verdict under one convention.
 
@@ -87,12 +101,15 @@ class Reading(msgspec.Struct, frozen=True):
 class Assessment(msgspec.Struct, frozen=True):
     """The verdict on a claim, and the readings behind it, the one as printed first.
 
-    `no_value` says why the inputs as printed give no value, where they should.
+    `no_value` says why the inputs as printed give no value, where they should. `standing` is what a
+    reproduced number tells, and `compared` what a number was compared with that nothing computes.
     """
 
     verdict: Verdict
     readings: tuple[Reading, ...] = ()
     no_value: str = ""
+    standing: Standing | None = None
+    compared: str = ""
 
 
 class Comparison(msgspec.Struct, frozen=True):

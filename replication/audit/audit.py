@@ -1,6 +1,7 @@
 """The audit: every verdict, explanation and finding, put together as one record."""
 
 import sys
+from collections import Counter
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from fractions import Fraction
@@ -19,9 +20,9 @@ from reference.equations import MATHML, PLAIN, Equations, NoValueError, evaluate
 from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.scheme import Scheme
 from reference.units import to_si
-from replication.audit import comparison, wording
+from replication.audit import comparison, remarks, wording
 from replication.audit import record as r
-from replication.audit.assessment import Verdict
+from replication.audit.assessment import Standing, Verdict
 from replication.audit.findings import findings
 from replication.audit.results import Results
 from replication.text import number, powers_of_ten
@@ -78,6 +79,7 @@ class Audit(Results):
         reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
         computed = [(c.as_printed.reference, c.claim.unit) for c in reproduced if c.as_printed]
         values = {float(Fraction(digits) * to_si(unit)) for digits, unit in computed}
+        standings = Counter(claim.assessment.standing for claim in reproduced)
         remarks = sum(record.claim.kind in ("remark", "comparison") for record in claims)
         return r.Counts(
             entries=len(claims),
@@ -87,6 +89,10 @@ class Audit(Results):
             constants=len(reproduced) - len(computed),
             computed=len(computed),
             values=len(values),
+            independent=standings[Standing.INDEPENDENT],
+            evidence=standings[Standing.EVIDENCE],
+            by_definition=standings[Standing.BY_DEFINITION],
+            repeats=standings[Standing.REPEATS],
             failing=sum(claim.verdict.is_failure for claim in claims),
             equations=len(equations),
             equations_derived=sum(e.verdict == Verdict.REPRODUCED for e in equations),
@@ -105,6 +111,7 @@ class Audit(Results):
         assessment = self.judge.assess(claim)
         computed = assessment.readings[0].computed if assessment.readings else None
         is_open, is_computed = assessment.verdict.is_open, computed is not None
+        tried, fitting = self.slips(claim) if is_open and "eq16" in claim.uses else (None, [])
         return r.ClaimRecord(
             claim=claim,
             assessment=assessment,
@@ -115,10 +122,11 @@ class Audit(Results):
             worked=self._worked(claim, computed),
             confirmed_range=self.judge.confirmed_range(claim),
             sources=self.judge.sources(name),
-            figures=comparison.figures(self) if claim.kind == "remark" else [],
+            figures=remarks.figures(self, claim),
             back_solved=self.explainer.back_solved(claim) if is_open and is_computed else [],
             repairs=self.explainer.repairs(name) if is_open else [],
-            slips=self.explainer.slips(claim) if is_open and is_computed else [],
+            slips=fitting,
+            slips_tried=tried,
         )
 
     def _worked(self, claim: Claim, computed: float | None) -> r.Worked | None:

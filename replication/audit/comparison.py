@@ -16,11 +16,12 @@ from typing import Any, TypeVar
 from reference.ledger import Convention
 from reference.scheme import Scheme
 from replication.audit import record as r
-from replication.audit.results import DENSITY, DERIVED, Results, case, exact_ratio
+from replication.audit.inference import DENSITY
+from replication.audit.results import DERIVED, Results, case, exact_ratio
 from replication.models import depth, motion, sheet
 from replication.models.crater import crater_depth, depth_from_volume_ratio
 from replication.models.impact import InputError
-from replication.text import quantity, with_unit
+from replication.text import with_unit
 
 BETAS = (3, 5)
 
@@ -83,28 +84,6 @@ def approaches(results: Results) -> list[r.Approach]:
         approach("hydrocode", "CTH", "cth-ratio"),
         approach("hydrocode", "Autodyne", "autodyne-ratio"),
     ]  # fmt: skip
-
-
-def figures(results: Results) -> list[r.Figure]:
-    """Return the figures to judge the remark by: final depths at both steps, in both schemes."""
-
-    def final_depth(beta: int, scheme: Scheme, step: str) -> float:
-        return sheet.run(case(results, beta, step=results[step]), scheme).final_depth
-
-    figures = []
-    for beta, scheme in product(BETAS, Scheme):
-        case_words = f"beta = {beta}, drag at the {scheme.drag_at} velocity"
-        depths = []
-        for step in ("a-step", "coarse-step"):
-            step_words = quantity(results.ledger.claims[step].shown, "ns")
-            depths.append(_value(final_depth, beta, scheme, step))
-            micrometers = None if depths[-1] is None else depths[-1] * 1e6
-            means = f"final depth at {step_words}, {case_words}"
-            figures.append(r.Figure(means=means, value=micrometers, unit="um"))
-        fine, coarse = depths
-        change = 100 * (coarse / fine - 1) if fine and coarse is not None else None
-        figures.append(r.Figure(means=f"change, {case_words}", value=change, unit="percent"))
-    return figures
 
 
 # How the depth depends on its inputs

@@ -1,26 +1,22 @@
 """Possible explanations of a number that does not follow from the report.
 
-Other inputs, misprints and slips of the author's are tried, and those that would give the number
-are listed. The audit asserts none of them.
+Other inputs and misprints are tried, and those that would give the number are listed (`slips` tries
+slips of the author's). The audit asserts none of them.
 """
 
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from contextlib import suppress
 from fractions import Fraction
 from functools import cache, cached_property
 from itertools import pairwise, product
 from string import digits
 
-from msgspec.structs import replace
-
 from reference.derivations import premises_of
-from reference.enclosure import Solutions, enclose, solve
-from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.enclosure import Solutions, solve
+from reference.ledger import INFERRED, Claim, Ledger
 from reference.printed import parse
-from reference.slips import SLIPS
 from reference.units import to_si
-from replication.audit.record import BackSolved, Proof, Repair, TriedSlip
+from replication.audit.record import BackSolved, Proof, Repair
 from replication.audit.verdict import Judge, Values, agrees, disagreeing, follows
 
 
@@ -213,26 +209,6 @@ class Explainer:
         """Return the one repair with which nothing fails, if several claims fail now."""
         repairs = self.ranked(names) if len(names) > 1 else []
         return repairs[0] if repairs and not repairs[0].failing else None
-
-    # Slips
-
-    def slips(self, claim: Claim) -> list[TriedSlip]:
-        """Return what each slip that the author may have made would give for a claim."""
-        target, rounded, records = claim.target(), Convention(choices_exact=False), []
-        for slip in (slip for slip in SLIPS if slip.equation in claim.uses):
-            changed = replace(claim.resting_on(**slip.inputs), computations={"": slip.computation})
-            function = self.ledger.function(changed)
-            value, fits = None, ""
-            with suppress(ArithmeticError):  # misprinted inputs may give no finite value
-                at_print = enclose(function, self.judge.inputs_as_printed(changed)).ends
-                value, fits = float(at_print[0] / claim.si), "not excluded within rounding"
-                if target.encloses(*at_print):
-                    fits = "as printed"
-                else:
-                    within = enclose(function, self.judge.inputs_as_rounded(changed, rounded)).ends
-                    fits = "" if target.excludes(*within) else fits
-            records.append(TriedSlip(slip, value, fits))
-        return records
 
 
 _BUDGET = 250

@@ -13,6 +13,9 @@ from reference.ledger import INFERRED, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
 
+DENSITY = INFERRED + "target-density"
+"""The id of the one input that the report needs and does not print."""
+
 
 class Admission(Enum):
     """Whether the evidence admits a value from a public source, and on what condition."""

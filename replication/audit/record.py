@@ -15,7 +15,6 @@ import msgspec
 from reference.enclosure import Ends
 from reference.ledger import Claim, Equation, Inferred, Report
 from reference.scheme import Scheme
-from reference.slips import Slip
 from replication.audit.assessment import (
     Assessment,
     Comparison,
@@ -76,16 +75,28 @@ class Repair(_Part, frozen=True):
     failing: list[str]
 
 
-class TriedSlip(_Part, frozen=True):
-    """The value that a slip of the author's would give a claim; None where it gives none.
+class FittingSlip(_Part, frozen=True):
+    """What Eq. 16 gives with slips of the author's: `departures` of them, named in `name`.
 
-    `fits` says whether that prints like the claim: "as printed", perhaps for inputs that are
-    rounded, or not at all (empty).
+    `fits` says for which target densities it gives the printed number.
     """
 
-    slip: Slip
-    value: float | None
+    name: str
+    departures: int
+    value: float
     fits: str
+
+
+class SlipsTried(_Part, frozen=True):
+    """The family of slips that was tried for a claim, as `replication.audit.slips` explains.
+
+    It has `members`, of which `near` come within a factor of 1.5 of the printed number. `expected`
+    is how many of them would fit it by accident.
+    """
+
+    members: int
+    near: int
+    expected: float
 
 
 class Figure(_Part, frozen=True):
@@ -128,7 +139,12 @@ class ClaimRecord(_Part, frozen=True):
     figures: Sequence[Figure]
     back_solved: Sequence[BackSolved]
     repairs: Sequence[Repair]
-    slips: Sequence[TriedSlip]
+    slips: Sequence[FittingSlip]
+    slips_tried: SlipsTried | None
+
+    def __repr__(self) -> str:
+        """A line; `msgspec.structs.asdict` has all fields."""
+        return f"<claim {self.id}: {with_unit(self.claim.text, self.claim.unit)}, {self.verdict}>"
 
     @property
     def id(self) -> str:
@@ -154,11 +170,6 @@ class ClaimRecord(_Part, frozen=True):
     def scope(self) -> str:
         """Under which conventions the verdict holds; empty if nothing is computed."""
         return next(iter(self.scopes), "")
-
-    def __repr__(self) -> str:
-        """A line; `msgspec.structs.asdict` has all fields."""
-        printed = with_unit(self.claim.text, self.claim.unit)
-        return f"<claim {self.id}: {printed}, {self.verdict}>"
 
     @property
     def restated(self) -> str | None:
@@ -334,10 +345,13 @@ class Level(_Part, frozen=True):
 class Counts(_Part, frozen=True):
     """How many claims and equations there are, by kind and outcome.
 
-    The `entries` are all claims: `numbers` are printed numbers, `remarks` comparisons in words. Of
-    the `reproduced` numbers, `constants` stand in equations and `computed` are calculated from
-    their inputs; `values` counts the different values among these, each once however often it is
-    printed. `failing` claims and `equations_failing` contradict the rest of the report.
+    The `entries` are all claims: `numbers` are printed numbers, `remarks` comparisons in words.
+    Of the `reproduced` numbers, `constants` stand in equations and `computed` are calculated
+    from their inputs; `values` counts the different values among these, each once however often
+    it is printed. Of the computed ones, only the `independent` ones could have failed by
+    themselves; an input was inferred from the `evidence`, and the others are true
+    `by_definition` of one printed number, or `repeats` of an earlier one (see `Standing`).
+    `failing` claims and `equations_failing` contradict the rest of the report.
     """
 
     entries: int
@@ -347,6 +361,10 @@ class Counts(_Part, frozen=True):
     constants: int
     computed: int
     values: int
+    independent: int
+    evidence: int
+    by_definition: int
+    repeats: int
     failing: int
     equations: int
     equations_derived: int

@@ -1,17 +1,18 @@
 """What an audit derives from a ledger: verdicts and explanations, and values to compute with."""
 
 from fractions import Fraction
+from functools import cache, partial
 
-from reference.ledger import INFERRED, Ledger, claims_of_case
+from reference.ledger import Ledger, claims_of_case
 from reference.printed import decimal_text
 from reference.units import to_si
 from replication.audit.assessment import Reading, Verdict
 from replication.audit.explain import Explainer
+from replication.audit.slips import tried
 from replication.audit.verdict import Judge
 from replication.models import depth
 from replication.models.impact import Impact
 
-DENSITY = INFERRED + "target-density"
 DERIVED = "derived from Eqs. 14 and 15"
 """The name of the reading of Eq. 16 that does not take it as printed."""
 
@@ -23,6 +24,7 @@ class Results:
         self.ledger = ledger
         self.judge = Judge(ledger, every_convention=every_convention)
         self.explainer = Explainer(self.judge)
+        self.slips = cache(partial(tried, self.judge))
 
     def exact(self, name: str) -> Fraction:
         """Return a claim's printed, an inferred input's assumed, or a source's value, in SI."""

@@ -24,12 +24,62 @@ from replication.audit.assessment import (
     JudgedConstant,
     Judgement,
     Reading,
+    Standing,
     Verdict,
 )
+from replication.audit.crosschecks import CROSS_CHECKS
 from replication.audit.inference import Admission, Inference
 from replication.audit.replica import replica
 
 _REALS, _RATIONALS = Reals(50), Rationals()
+
+
+def standing(ledger: Ledger, claim: Claim) -> Standing | None:
+    """Return what it tells that a computed number is reproduced; None for any other claim."""
+    if not claim.is_computed or claim.computation is None or claim.within is not None:
+        return None
+    if any(claim.id in inferred.evidence for inferred in ledger.inferred.values()):
+        return Standing.EVIDENCE
+    if claim.computation.by_definition:
+        return Standing.BY_DEFINITION
+    for earlier in ledger.claims.values():
+        if earlier is claim:
+            return Standing.INDEPENDENT
+        same = earlier.computation is claim.computation and earlier.row == claim.row
+        if same and _roots(ledger, earlier) == _roots(ledger, claim):
+            return Standing.REPEATS
+    raise KeyError(claim.id)
+
+
+def _roots(ledger: Ledger, claim: Claim) -> dict[str, tuple[str, ...]]:
+    """Return a claim's inputs, each entry as it was first printed."""
+    return {
+        name: tuple(_first_printed(ledger, entry) for entry in entries)
+        for name, entries in claim.inputs.items()
+    }
+
+
+def _first_printed(ledger: Ledger, entry: str) -> str:
+    """Return the entry that an entry repeats, or itself."""
+    claim = ledger.claims.get(entry)
+    while claim is not None and claim.same_as is not None:
+        claim = ledger.claims[claim.same_as]
+    return entry if claim is None else claim.id
+
+
+def _compare(claim: Claim, source: Source) -> tuple[bool, str]:
+    """Return whether a claim agrees with a public source, and in which words.
+
+    "300" may have one, two or three significant digits: it differs only if no reading agrees.
+    """
+    if claim.target().meets(source.interval):
+        return True, "agrees"
+    printed = claim.printed
+    if printed is not None and claim.bound is None and not claim.is_exact:
+        for digits in printed.quanta:
+            if printed.interval(quantum=digits).scaled(claim.si).meets(source.interval):
+                return True, f"agrees if only some digits of {claim.shown} are significant"
+    return False, "differs"
 
 
 def is_consistent(ledger: Ledger, claim: Claim) -> bool:
@@ -94,7 +144,7 @@ class Judge:
 
         What the report computes or repeats is computed or compared again, and a constant of an
         equation is judged with the equation. Only where that decides nothing, public sources do,
-        or the claims that are computed from the number.
+        or the claims that are computed from the number, or what limits it.
         """
         if claim.kind == "remark":
             return Assessment(Verdict.REMARK)
@@ -112,6 +162,14 @@ class Judge:
         if claim.shown_by:
             is_met = self.confirmed_range(claim) is not None
             return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
+        if claim.id in CROSS_CHECKS:
+            try:
+                checked = CROSS_CHECKS[claim.id](self.ledger)
+            except (ArithmeticError, ValueError) as error:  # an input has no meaning
+                return Assessment(Verdict.INCONSISTENT, no_value=str(error))
+            return Assessment(checked.verdict, compared=checked.says)
+        if claim.given == "definition":
+            return Assessment(Verdict.CONSISTENT)
         return Assessment(Verdict.NOT_CHECKABLE)
 
     def constant(self, claim: Claim) -> JudgedConstant | None:
@@ -128,7 +186,9 @@ class Judge:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
         except ArithmeticError as error:
             return Assessment(Verdict.NOT_REPRODUCED, no_value=str(error))
-        return Assessment(readings[0].verdict, readings)
+        verdict = readings[0].verdict
+        told = standing(self.ledger, claim) if verdict is Verdict.REPRODUCED else None
+        return Assessment(verdict, readings, standing=told)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         function = self.ledger.function(claim, reading=name)
@@ -216,8 +276,7 @@ class Judge:
                 admission = self.admission(source)
                 matches, outcome = admission is Admission.ADMITTED, f"is {admission.value}"
             else:
-                matches = self.ledger.claims[name].target().meets(source.interval)
-                outcome = "agrees" if matches else "differs"
+                matches, outcome = _compare(self.ledger.claims[name], source)
             records.append(Comparison(source, matches, outcome))
         return records
 
@@ -357,9 +416,9 @@ def disagreeing(ledger: Ledger, names: Iterable[str], changed: Values) -> set[st
 def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> EquationAssessment:
     """Return the verdict on an equation and, if `constants`, on the constants in it.
 
-    An equation that the report derives must pass every check. If the report takes it from the
-    literature, only its dimensions, limits and signs can be checked: it is "not checkable" if they
-    hold.
+    An equation that the report derives must pass every check. A definition, and an equation that
+    repeats another, is consistent if it does. If the report takes an equation from the literature,
+    only its dimensions, limits and signs can be checked: it is "not checkable" if they hold.
 
     >>> from reference.ledger import load
     >>> assess_equation(load(), "eq16").factor
@@ -370,6 +429,7 @@ def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> Equ
     passed, failed = {
         "derived": (Verdict.REPRODUCED, Verdict.NOT_REPRODUCED),
         "definition": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
+        "repeat": (Verdict.CONSISTENT, Verdict.INCONSISTENT),
         "taken over": (Verdict.NOT_CHECKABLE, Verdict.NOT_REPRODUCED),
     }[equation.kind]
     records = _constants(ledger, name, holds) if constants else {}
@@ -401,15 +461,26 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
 def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, JudgedConstant]:
     """Judge each constant of an equation by the values in its place that pass every check.
 
-    It is reproduced if only the printed value does, not reproduced if only other values do.
+    It is reproduced if only the printed value does, not reproduced if only other values do. In a
+    definition or a repeated equation the printed value is consistent instead. In an equation that
+    is taken over it is not checkable if only the quoted law itself decides it.
     """
     printed = {claim: ledger.value(claim) for claim in ledger.constants_of(name)}
+    kind = ledger.equations[name].kind
 
-    def passing(claim: str, corrected: Mapping[str, Fraction]) -> list[Fraction]:
-        """Return the values of a constant that pass every check, given corrected constants."""
+    def passing(
+        claim: str, corrected: Mapping[str, Fraction], *, quoted: bool = True
+    ) -> list[Fraction]:
+        """Return the values of a constant that pass every check, given corrected constants.
+
+        Without `quoted`, checks that quote the law itself are left out.
+        """
         tried = sorted({*_USUAL, *(printed[claim] * factor for factor in (1, 2, Fraction(1, 2)))})
         texts = {value: ledger.printed_text(name, {**corrected, claim: value}) for value in tried}
-        return [v for v, text in texts.items() if follows(ledger.misprint(name, text), name)]
+        checks = {v: _checks(ledger.misprint(name, text), name) for v, text in texts.items()}
+        return [
+            v for v, own in checks.items() if all(c.holds for c in own if quoted or not c.quotes)
+        ]
 
     needed = {claim: passing(claim, {}) for claim in printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
@@ -422,7 +493,12 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, JudgedConsta
     for claim, values in needed.items():
         verdict = Verdict.NOT_REPRODUCED if values else Verdict.UNDECIDED
         if printed[claim] in values:
-            verdict = Verdict.REPRODUCED if len(values) == 1 else Verdict.NOT_CHECKABLE
+            decided = len(values) == 1
+            if kind == "taken over":
+                decided = len(passing(claim, {}, quoted=False)) == 1
+            repeats = kind in ("definition", "repeat")
+            passed = Verdict.CONSISTENT if repeats else Verdict.REPRODUCED
+            verdict = passed if decided else Verdict.NOT_CHECKABLE
         constants[claim] = JudgedConstant(claim=claim, verdict=verdict, needed=[*map(str, values)])
     return constants
 

@@ -40,6 +40,10 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
         return sources(ledger, claim, comparisons)
     if claim.shown_by:
         return fitting(ledger, claim, judge.confirmed_range(claim))
+    if assessed.compared:
+        return assessed.compared
+    if assessed.verdict is Verdict.CONSISTENT:
+        return f"Nothing to compute: {claim.why}."
     return f"Nothing in the report decides it: {claim.why}."
 
 
@@ -124,11 +128,11 @@ def scope(claim: Claim, reading: Reading) -> str:
     varied = [name for key, name in names.items() if len({getattr(c, key) for c in usual}) > 1]
     inputs = f", with {' and '.join(varied)} exact or rounded" if varied else ""
     where = f"{inputs}{', in both schemes' if claim.by_scheme else ''}"
-    if exceptions := _exceptions(claim, reading):
-        others = f"{reading.verdict} under all others"
-        return f"Three ways of rounding were tried{where}: {exceptions}; {others}."
     subject = "As printed, the" if claim.readings and not reading.name else "The"
-    return f"{subject} verdict is the same under three ways of rounding{where}."
+    holds = f"{subject} verdict holds under three ways of rounding{where}"
+    if exceptions := _exceptions(claim, reading):
+        return f"{holds}, with these exceptions: {exceptions}."
+    return f"{holds}."
 
 
 def _exceptions(claim: Claim, reading: Reading) -> str:
@@ -142,9 +146,10 @@ def _exceptions(claim: Claim, reading: Reading) -> str:
     for verdict, conditions in exceptions.items():
         # A condition that includes a weaker one adds nothing.
         kept = dict.fromkeys(c for c in conditions if not any(set(o) < set(c) for o in conditions))
-        parts.append(f"{verdict} if {', or if '.join(map(' and '.join, kept))}")
+        conditions_met = ", or if ".join(map(" and ".join, kept))
+        parts.append(f'if {conditions_met}, it becomes "{verdict}"')
     # The evidence for its inferred inputs is rounded to nearest under every convention.
-    return ", and ".join(parts).format(cut_off="of this number alone " if claim.inferred else "")
+    return "; ".join(parts).format(cut_off="of this number alone " if claim.inferred else "")
 
 
 _UNUSUAL = (
@@ -188,6 +193,8 @@ def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
     if printed is None or unambiguous or not values or len(printed.quanta) == 1:
         return []
     taken = "the fewest digits" if claim.kind == "approximation" else "all digits"
+    if claim.computation is None and claim.kind != "approximation":
+        taken = "as many digits as agree with a source"  # a source contradicts it only if none do
     ranges = (printed.interval(quantum=quantum).scaled(claim.si) for quantum in printed.quanta)
     inside = {any(map(range_.meets, values)) for range_ in ranges}
     depends = "depends" if len(inside) > 1 else "does not depend"
@@ -240,7 +247,7 @@ def constant_explanation(ledger: Ledger, claim: Claim, constant: JudgedConstant)
     if equation.kind == "taken over":
         passes = "the equation has the right dimensions, limits and signs"
     match constant.verdict:
-        case Verdict.REPRODUCED:
+        case Verdict.REPRODUCED | Verdict.CONSISTENT:
             return f"With this number, and no other that was tried, {passes}."
         case Verdict.NOT_REPRODUCED:
             needed = " or ".join(constant.needed)

@@ -98,9 +98,9 @@ def _prove_claim(options: argparse.Namespace, ledger: "Ledger") -> int:
     from replication.report.document import claim_document
 
     audit = Audit(ledger)
-    record, on_it = audit.claim(options.id), findings_on(audit, options.id)
-    text = partial(proof, record, on_it, ledger, width(), may_emphasize())
-    return put(options, claim_document(record), lambda: coloured(text()))
+    claim, on_it = audit.claim(options.id), findings_on(audit, options.id)
+    text = partial(proof, claim, on_it, ledger, width(), may_emphasize())
+    return put(options, claim_document(claim), lambda: coloured(text()))
 
 
 def _prove_equation(options: argparse.Namespace, ledger: "Ledger") -> int:
@@ -110,6 +110,6 @@ def _prove_equation(options: argparse.Namespace, ledger: "Ledger") -> int:
     from replication.report.document import equation_document
 
     audit = Audit(ledger)
-    record, on_it = audit.equation(options.id), findings_on(audit, options.id)
-    text = partial(equation_proof, record, on_it, ledger, width(), may_emphasize())
-    return put(options, equation_document(record), lambda: coloured(text()))
+    equation, on_it = audit.equation(options.id), findings_on(audit, options.id)
+    text = partial(equation_proof, equation, on_it, ledger, width(), may_emphasize())
+    return put(options, equation_document(equation), lambda: coloured(text()))

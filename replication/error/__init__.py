@@ -70,8 +70,8 @@ def warnings(sheet: Sheet) -> dict[str, str]:
         by = f", by {100 * abs(1 - last.depth / at_stop):.3g} %" if at_stop else ""
         cure = "take a shorter step" if at_stop else "the run begins at the stop velocity"
         result[kind] = f"{text}{by}: {cure}"
-    short = 1 - at_stop / rest
-    if short > DIGITS:
-        left = f"{100 * short:.3g} % of the exact depth is still to come"
+    if 1 - at_stop / rest > DIGITS and last.depth < rest:
+        # Of the depth that the sheet has reached, which may be far from that at the stop velocity.
+        left = f"{100 * (1 - last.depth / rest):.3g} % of the exact depth is still to come"
         result["short"] = f"{stop} ends the run before rest: {left}"
     return result

@@ -163,7 +163,9 @@ def history(
     """Depth [m] and velocity [m/s] of Eqs. 12-13 at times [s] after touch.
 
     The other inputs are those of `final_depth`; times broadcast against them. Errors are below
-    1e-14 of the final depth and of the impact velocity. From the stop time on, the results are the
+    1e-14 of the final depth and of the impact velocity. So close to rest fewer digits of a velocity
+    hold: eight where it has fallen to a millionth of the impact velocity (the time as a double says
+    no more; `velocity_at_depth` and `time_to_depth` do). From the stop time on, the results are the
     final depth and 0. Raises ValueError naming the first element that is out of range.
 
     >>> depth, speed = history([0.0, 1e-8, 1.0], 500.0, 11e-6, 8900.0, 7850.0, 3.5e9)

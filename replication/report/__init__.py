@@ -17,7 +17,15 @@ from replication.report.arrangement import Arrangement
 from replication.report.document import audit_document
 from replication.report.figures import draw
 from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
-from replication.text import Table, columns, json_text, number, quantity, rows_csv, table_text
+from replication.text import (
+    Table,
+    columns,
+    json_text,
+    number,
+    quantity,
+    rows_csv,
+    table_text,
+)
 
 FILES = (
     "audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt", "workbook.xlsx",
@@ -101,29 +109,17 @@ def _from_template(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
 
 # For a terminal
 
-MAIN = (
-    "depth-beta-3", "depth-beta-5", "ratio-beta-5", "observed-depth-ratio", "goodier-beta",
-    "walker-anderson-beta",
-)  # fmt: skip
-"""The ids of the report's main results."""
-
 FINDINGS = 3
 """The number of findings that fit on one screen."""
 
 
 def summary(record: Record, width: int, strong: bool = False) -> str:
-    """Write the audit on one screen: headline, counts, what fails, main results, findings."""
-    main = [
-        (c.claim.title, words.with_unit(c.claim), words.measured(c.computed, c.claim.unit),
-         c.verdict)
-        for c in record.claims
-        if c.id in MAIN and c.computed is not None
-    ]  # fmt: skip
+    """Write the audit on one screen: counts, what fails, main results, findings, the headline."""
     parts = {
         "record": record,
         "words": words,
         "not_as_printed": tables.not_as_printed(record),
-        "main": Table("Main results", ("number", "printed", "computed", "verdict"), main),
+        "main": tables.main(record),
         "findings": record.findings[:FINDINGS],
         "more": len(record.findings[FINDINGS:]),
     }
@@ -201,12 +197,12 @@ def _on_terminal(
     def in_columns(rows: Sequence[tuple[str, ...]]) -> str:
         return columns([tuple(map(prose, row)) for row in rows], width)
 
-    def as_table(table: Table) -> str:
+    def grid(table: Table) -> str:
         heads, *rows = (tuple(map(prose, row)) for row in (table.heads, *table.rows))
         return table_text(Table("", heads, rows), width)
 
     bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
     helpers = {
-        "fill": wrapped, "columns": in_columns, "table_text": as_table, "strong": bold.format,
+        "fill": wrapped, "columns": in_columns, "table_text": grid, "strong": bold.format,
     }  # fmt: skip
     return _from_template(name, prose, {**parts, **helpers}).rstrip("\n")

@@ -27,7 +27,7 @@ SECTIONS: Mapping[str, str] = {
     "computed": "Recomputed numbers",
     "remarks": "Remarks, with figures",
     "sources": "Numbers compared with public sources",
-    "repeated": "Numbers that repeat or are chosen",
+    "repeated": "Numbers that repeat, are chosen, or are compared",
     "undecided": "Numbers that nothing in the report decides",
     "power": "What this audit would notice",
     "symbols": "Symbols",
@@ -255,6 +255,8 @@ def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
             name = "equations"
         elif name != "open" and claim.claim.cell:
             name = "table-a-1"
+        elif name != "open" and claim.assessment.compared:
+            name = "repeated"
         groups[name][claim.id] = claim
     return groups
 

@@ -21,7 +21,8 @@ from msgspec import to_builtins
 from reference.enclosure import Ends
 from reference.ledger import Convention
 from replication.audit.assessment import Comparison, Judgement, Reading
-from replication.audit.record import ClaimRecord, EquationRecord, InferredRecord, Record, TriedSlip
+from replication.audit.record import ClaimRecord, EquationRecord, InferredRecord, Record
+from spreadsheets.sheets import cells_of_claims
 
 Document = dict[str, Any]
 """A JSON object."""
@@ -104,8 +105,11 @@ def claim_document(record: ClaimRecord) -> Document:
         "figures": to_builtins(record.figures),
         "back_solved": to_builtins(record.back_solved),
         "repairs": to_builtins(record.repairs),
-        "slips": [slip_document(tried) for tried in record.slips],
-        "workbook": claim.workbook,
+        "slips": to_builtins(record.slips),
+        "slips_tried": to_builtins(record.slips_tried),
+        "standing": to_builtins(record.assessment.standing),
+        "compared": record.assessment.compared,
+        "workbook": cells_of_claims().get(claim.id),
     }
 
 
@@ -157,16 +161,6 @@ def source_document(comparison: Comparison) -> Document:
         "applies": source.applies,
         "agrees": comparison.agrees,
         "outcome": comparison.outcome,
-    }
-
-
-def slip_document(tried: TriedSlip) -> Document:
-    """Encode what a slip of the author's would give a claim."""
-    return {
-        "name": tried.slip.name,
-        "reason": tried.slip.reason,
-        "value": tried.value,
-        "fits": tried.fits,
     }
 
 

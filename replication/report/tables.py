@@ -16,6 +16,7 @@ from replication.audit.comparison import SHARES
 from replication.report.prose import Named, quoted
 from replication.report.words import measured, shown_range, with_unit
 from replication.text import Table, between, number, quantity, rounded
+from spreadsheets.sheets import cells_of_claims
 
 NO_VALUE = "no value"
 """Shown for a quantity that cannot be computed from misprinted inputs."""
@@ -30,6 +31,7 @@ def facts(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, 
         for entries in claim.inputs.values()
     )
     others = zip(record.assessment.readings[1:], record.scopes[1:], strict=True)
+    cell = cells_of_claims().get(claim.id)
     texts = {
         "rounds to it": is_number and quantity(str(claim.interval()).replace("E", "e"), claim.unit),
         "computed": measured(record.computed, claim.unit, 10),
@@ -44,7 +46,7 @@ def facts(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, 
         "assumed": "; ".join(record.assumes),
         "would still agree": record.confirmed_range and _still_agrees(record.confirmed_range),
         "public sources": "; ".join(map(_source, record.sources)),
-        "workbook cell": claim.workbook and f"`{claim.workbook}`",
+        "workbook cell": cell and f"`{cell}`",
     }
     return [(label, text.removesuffix(".")) for label, text in texts.items() if text]
 
@@ -69,6 +71,23 @@ def _source(comparison: Comparison) -> str:
 
 def _values(values: Mapping[str, Fraction]) -> str:
     return ", ".join(f"`{name}` {number(value, 10)}" for name, value in values.items())
+
+
+MAIN = (
+    "depth-beta-3", "depth-beta-5", "ratio-beta-5", "observed-depth-ratio", "goodier-beta",
+    "walker-anderson-beta",
+)  # fmt: skip
+"""The ids of the report's main results."""
+
+
+def main(record: r.Record) -> Table:
+    """Return the report's main results, as printed and as computed."""
+    rows = [
+        (c.claim.title, with_unit(c.claim), measured(c.computed, c.claim.unit), c.verdict)
+        for c in record.claims
+        if c.id in MAIN and c.computed is not None
+    ]
+    return Table("Main results", ("number", "printed", "computed", "verdict"), rows)
 
 
 def not_as_printed(record: r.Record) -> Table:
@@ -109,10 +128,7 @@ def significant(text: str) -> int:
 def tried(record: r.ClaimRecord) -> list[Table]:
     """Return the explanations tried for a claim that fails, and the figures that judge a remark."""
     figures = [(f.means, measured(f.value, f.unit, 5) or NO_VALUE) for f in record.figures]
-    slips = [
-        (s.slip.name, s.slip.reason, measured(s.value, "1", 3) or NO_VALUE, s.fits or "no")
-        for s in record.slips
-    ]
+    slips = [(s.name, str(s.departures), measured(s.value, "1", 4), s.fits) for s in record.slips]
     inputs = []
     for entry in dict.fromkeys(solved.entry for solved in record.back_solved):
         by_reading = [solved for solved in record.back_solved if solved.entry == entry]
@@ -126,9 +142,20 @@ def tried(record: r.ClaimRecord) -> list[Table]:
         Table("The figures to judge it by", ("what", "computed"), figures),
         Table(changed, heads, inputs),
         repairs(record.repairs, record.id),
-        Table("Slips the author may have made", ("slip", "what it is", "gives", "fits"), slips),
+        Table(_slips_title(record), ("Eq. 16 with", "slips", "gives", "fits"), slips),
     )
     return [shown for shown in tables if shown.rows]
+
+
+def _slips_title(record: r.ClaimRecord) -> str:
+    """Say how large the family of slips is, and how many of it would fit by accident."""
+    tried = record.slips_tried
+    if tried is None:
+        return ""
+    return (
+        f"Slips in Eq. 16 that give it: {len(record.slips)} of {tried.members:,} tried; "
+        f"{tried.expected:.1f} would by accident"
+    )
 
 
 def _needed(solved: r.BackSolved) -> str:

@@ -5,7 +5,7 @@ They are plain text, with ids between backticks: `Prose` typesets them.
 
 from collections.abc import Mapping, Sequence
 
-from reference.ledger import Claim
+from reference.ledger import Claim, Convention
 from replication.audit import record as r
 from replication.audit.assessment import Verdict
 from replication.cases import INPUTS
@@ -105,13 +105,59 @@ def counted(counts: r.Counts) -> str:
     numbers = "number does" if counts.failing == 1 else "numbers do"
     equations = "does" if counts.equations_failing == 1 else "do"
     return (
-        f"{counts.reproduced} of the report’s {counts.numbers} numbers come out as printed: "
-        f"{counts.constants} factors and powers in its equations, and {counts.computed} other "
-        f"numbers, of {counts.values} different values. {counts.failing} {numbers} not follow from "
-        f"what it says. Of the {counts.equations} equations, {counts.equations_derived} follow "
-        f"from earlier ones or from mechanics, and {counts.equations_failing} {equations} not; the "
-        "others are definitions or from the literature."
+        f"{counts.independent} numbers that could have failed by themselves come out as printed, "
+        f"and {counts.failing} {numbers} not follow from what the report says. "
+        f"{counts.reproduced - counts.independent} more of its {counts.numbers} numbers come out, "
+        f"but tell less: from {counts.evidence} the target density was inferred, "
+        f"{counts.by_definition} only scale or pick one printed number, {counts.repeats} repeat "
+        f"an earlier one, and {counts.constants} are factors and powers in its equations. Of the "
+        f"{counts.equations} equations, {counts.equations_derived} follow from earlier ones or "
+        f"from mechanics, and {counts.equations_failing} {equations} not; the others are "
+        "definitions, repeats, or quoted from the literature."
     )
+
+
+def counted_briefly(counts: r.Counts) -> str:
+    """Say how many numbers could have failed and did not, and how many fail."""
+    numbers = "does" if counts.failing == 1 else "do"
+    return (
+        f"{counts.independent} numbers that could have failed by themselves come out as printed; "
+        f"{counts.failing} {numbers} not follow from what the report says."
+    )
+
+
+def if_choices_are_rounded(record: r.Record) -> str:
+    """Name the failing numbers that come out if what the author chose is rounded, too."""
+    rounded = Convention(choices_exact=False)
+    named = [
+        f"{claim.claim.shown} as {reading.name}"
+        for claim in record.claims
+        if claim.verdict.is_open
+        for reading in claim.assessment.readings
+        for judgement in reading.otherwise
+        if judgement.convention == rounded and judgement.verdict is Verdict.WITHIN_ROUNDING
+    ]
+    if not named:
+        return ""
+    return f"Only if what the author chose is rounded, too, these come out: {', '.join(named)}."
+
+
+def density(record: r.Record) -> str:
+    """Say what the target density rests on: inferred, and not with the printed mass."""
+    usual, names = record.inferred[0], {claim.id: claim.claim for claim in record.claims}
+    entry, mass = usual.entry, names[usual.entry.mass]
+    greatest = number(usual.with_printed_mass[1], 6)
+    taken = number(usual.assumed)
+    sentence = (
+        f"The report prints no {entry.title}. It is inferred from {len(entry.evidence)} cells of "
+        f"Table A-1, with the sphere's mass in place of the printed {with_unit(mass)}"
+    )
+    if usual.assumed > usual.with_printed_mass[1]:
+        sentence += (
+            f": with the printed mass no more than {quantity(greatest, entry.unit)} is possible, "
+            f"so not the {taken} taken"
+        )
+    return f"{sentence}."
 
 
 def entries(counts: r.Counts) -> str:

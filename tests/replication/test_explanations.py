@@ -206,8 +206,9 @@ def test_a_claim_computed_with_the_equation_fails_by_the_rest(
 
 EXPECTED = {
     "eq16": "not reproduced",  # Eqs. 14 and 15 give twice the depth in radii that it prints
-    **dict.fromkeys(("eq1", "eq8", "eq10", "eq14"), "not checkable"),  # taken over
-    **dict.fromkeys(("eq7", "eqA-2"), "consistent"),  # definitions
+    **dict.fromkeys(("eq1", "eq5", "eq8", "eq10", "eq14"), "not checkable"),  # taken over
+    **dict.fromkeys(("eq7", "diameter"), "consistent"),  # definitions
+    **dict.fromkeys(("eqA-1", "eqA-2", "eqA-3"), "consistent"),  # repeats
 }
 
 

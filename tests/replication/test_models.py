@@ -344,7 +344,7 @@ def test_the_largest_step_for_digits_is_verified(digits: int, scheme: Scheme) ->
 def test_the_closed_form_is_within_4_ulp_in_hard_cases_and_the_measure_sees_one_ulp(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """The sheets of these cases, their warnings and the errors are in `said.txt`."""
+    """The sheets of these cases, their warnings and the errors are in `printed/stability.txt`."""
     if (ulps := hard_cases.outcome(name)["ulps"]) is not None:
         assert abs(ulps) <= 4
         monkeypatch.setattr(

@@ -28,7 +28,8 @@ SHALLOW = (
 AT_STOP = [
     "the depth exceeds the exact one at the stop velocity, 0 m: the run begins at the stop "
     "velocity",
-    "the stop velocity 1.0 m/s ends the run before rest: 100 % of the exact depth is still to come",
+    "the stop velocity 1.0 m/s ends the run before rest: 99.3 % of the exact depth is still to "
+    "come",
 ]
 NO_STEPS = "the velocity 0.5 m/s is below the stop velocity 1.0 m/s: no steps"
 

@@ -1,6 +1,6 @@
 """Sweeps: reading plans, drawing, results, and complete, reproducible files.
 
-Error messages are in `said.txt`.
+Error messages are in `test_refusals.py`.
 """
 
 import csv

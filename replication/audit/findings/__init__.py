@@ -3,7 +3,7 @@
 Each finding is one function, in the file of its subject. It computes the numbers in its text anew
 from the ledger, the verdicts and the models, and returns a `Finding`; `evidence` has the parts.
 `FINDINGS` has them in the order of what they change for a reader. The first, the headline, is the
-sentence with which every output begins.
+sentence with which files begin and the text on a terminal ends.
 
 To add one: write its function, name with `@concerning` the claims that it is about, and put it into
 FINDINGS. The tests ask that all of its numbers hold for the report, and that its claims exist.
@@ -24,6 +24,12 @@ from replication.audit.findings.frank_zook import (
     two_resistances,
 )
 from replication.audit.findings.hydrocodes import autodyne_cells, cth_pressure, unlike_strengths
+from replication.audit.findings.implications import (
+    energy_balance,
+    half_buried,
+    hardness_again,
+    no_penetration,
+)
 from replication.audit.findings.resistance import (
     beta_and_flow_stress,
     inertia_term,
@@ -54,8 +60,12 @@ FINDINGS: tuple[FindingFunction, ...] = (
     inertia_term,
     observed_beta,
     compared_velocity,
+    half_buried,
     rigid_strength,
+    no_penetration,
+    energy_balance,
     strengths,
+    hardness_again,
     unlike_strengths,
     autodyne_cells,
     cth_pressure,

@@ -1,9 +1,9 @@
 """Findings on section 3's comparison with the model of Frank and Zook (Eqs. 14 to 17)."""
 
 from fractions import Fraction
-from math import expm1, log, log1p
+from math import cbrt, expm1, log, log1p
 
-from reference.arithmetic import Arithmetic, Number
+from reference.arithmetic import Arithmetic, Floats, Number
 from reference.enclosure import enclose
 from reference.ledger import Convention
 from replication.audit.assessment import Verdict
@@ -18,8 +18,9 @@ from replication.audit.findings.evidence import (
     prints,
     proves,
 )
+from replication.audit.inference import DENSITY
 from replication.audit.record import Finding
-from replication.audit.results import DENSITY, DERIVED, Results, case, exact_ratio
+from replication.audit.results import DERIVED, Results, case, exact_ratio
 
 RISE = {
     "k_t": "fz-kt",
@@ -66,6 +67,27 @@ def derived_ratio(
     return float(inertia(audit, length_ratio) / audit.exact("fz-kt")) * log1p(drag(audit) / R_t)
 
 
+def common_velocity(audit: Results) -> float:
+    """Return the velocity [m/s] up to which Eq. 16 raises X/R by more than the print allows.
+
+    The rise is the least for the greatest k_t and for the two R_t closest together, and it falls
+    as the velocity grows: so it holds below this velocity.
+    """
+    rounded = Convention(choices_exact=False)
+    k_t = audit.judge.rounded("fz-kt", rounded).ends[1]
+    R_t = audit.judge.rounded("fz-resistance-rha", rounded).ends[0]
+    R_low = audit.judge.rounded("fz-resistance-stainless", rounded).ends[1]
+    least, greatest, floats = Fraction(100), Fraction(10**5), Floats()
+    for _ in range(50):  # to 1e-10 m/s
+        middle = (least + greatest) / 2
+        values = [float(value) for value in (k_t, audit.exact(DENSITY), middle, R_t, R_low)]
+        if rise(floats, *values) > greatest_rise(audit):
+            least = middle
+        else:
+            greatest = middle
+    return float(least)
+
+
 def greatest_rise(audit: Results) -> Fraction:
     """Return the greatest ratio of two X/R that print like the two of section 3, less one."""
     armor, steel = (audit.ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless"))
@@ -84,7 +106,7 @@ def derived_over_printed(audit: Results) -> Fraction:
 
 @concerning("frank-zook-rha", "frank-zook-stainless", "eq16")
 def headline(audit: Results) -> Finding:
-    """The sentence with which every output begins."""
+    """The sentence with which files begin and the text on a terminal ends."""
     factor = equals(
         "factor",
         "2",
@@ -115,9 +137,10 @@ def headline(audit: Results) -> Finding:
         "headline",
         "headline",
         title="What the audit found",
-        statement="With the target density that Table A-1 implies, the model's own numbers "
-        "reproduce to the last printed digit; the two Frank-Zook values do not and cannot both be "
-        f"right; Eq. 16 as printed is too small by a factor of {factor}.",
+        statement="With a target density inferred from eight cells of Table A-1, and the sphere's "
+        "mass for the printed one, the model's own numbers reproduce to the last printed digit; "
+        "the two Frank-Zook values do not and, computed at one velocity, cannot both be right; "
+        f"Eq. 16 as printed is too small by a factor of {factor}.",
         status="explained",
         evidence=evidence,
     )
@@ -161,6 +184,11 @@ def frank_zook_pair(audit: Results) -> Finding:
     z = prints(
         "z", "2.053", drag(audit), "GPa", "k_t rho_t V^2 at the inputs as printed and 7850 kg/m^3"
     )
+    limit = prints(
+        "limit", "2976", common_velocity(audit), "m/s",
+        "velocity below which this holds, both R_t and k_t rounded, 7850 kg/m^3",
+    )  # fmt: skip
+    density = equals("density", "7850", exact(DENSITY), "kg/m^3", "target density taken there")
     ratio = calculated("1.179", log1p(2.053 / (R_low / 10**9)) / log1p(2.053 / (R_t / 10**9)))
     greatest = calculated("1.072", 0.2975 / 0.2775)
     return conclude(
@@ -173,7 +201,10 @@ def frank_zook_pair(audit: Results) -> Finding:
         "cancels from the ratio: L/D, k_1, any constant factor, and whether X is divided by R or "
         "by D. This holds for all inputs that print like the report's; if "
         f"{text('fz-resistance-stainless')} Pa is itself rounded, X/R must still rise by "
-        f"{least_rounded} %. So at least one of the two numbers is misprinted, miscalculated, or "
+        f"{least_rounded} %. The velocity need not be the printed one: for any velocity below "
+        f"{limit} m/s, at {density} kg/m^3 and with both resistances rounded, X/R must rise by "
+        "more than the printed numbers can. So, if they were computed at one velocity and with one "
+        "pair of densities, at least one of the two numbers is misprinted, miscalculated, or "
         "comes from other inputs than those printed.",
         by_hand=f"With z = k_t rho_t V^2 = {z} GPa the ratio is ln(1 + "
         f"{z}/{text('fz-resistance-stainless', 'GPa')}) / ln(1 + "
@@ -182,7 +213,7 @@ def frank_zook_pair(audit: Results) -> Finding:
         settle="The calculation from which the two values were taken, or R_t as it was used in "
         "each.",
         status="open",
-        evidence=(falls, least, least_rounded, nominal, printed, most, z),
+        evidence=(falls, least, least_rounded, nominal, printed, most, z, limit, density),
         steps=(ratio, greatest),
     )
 
@@ -296,6 +327,49 @@ def nearest_resistance(audit: Results, grid: Fraction) -> Fraction:
     )
 
 
+def typed_without_brackets(audit: Results, rho_t: Fraction, R_t: Fraction) -> float:
+    """X/R [1], twice Eq. 16, with "/2*k_t" in a cell, which multiplies by k_t.
+
+    Target density rho_t [kg/m^3] and resistance R_t [Pa].
+    """
+    k_t, V = exact_of(audit, "fz-kt", "a1-initial-velocity")
+    L_D, rho_p, k_1 = exact_of(audit, "sphere-length-ratio", "a1-density", "fz-k1")
+    return float((L_D * rho_p / rho_t + k_1) * k_t) * log1p(k_t * rho_t * V**2 / R_t)
+
+
+def density_on_k_1(audit: Results, R_t: Fraction) -> float:
+    """X/R [1], twice Eq. 16, with the density ratio on k_1 in place of L/D; R_t [Pa]."""
+    L_D, rho_p, k_1, k_t = exact_of(audit, "sphere-length-ratio", "a1-density", "fz-k1", "fz-kt")
+    bracket = L_D + k_1 * rho_p / audit.exact(DENSITY)
+    return float(bracket / k_t) * log1p(drag(audit) / R_t)
+
+
+def density_that_gives(audit: Results, claim: str) -> float:
+    """Return the target density [kg/m^3] at which `typed_without_brackets` leaves the claim.
+
+    Its value grows with the density: the greatest that prints as the claim is the upper end.
+    """
+    top = float(audit.ledger.claims[claim].target().ends[1])
+    R_t = audit.exact("fz-resistance-rha")
+    low, high = Fraction(7000), Fraction(9000)
+    for _ in range(40):  # to 2e-9 kg/m^3
+        middle = (low + high) / 2
+        if typed_without_brackets(audit, middle, R_t) < top:
+            low = middle
+        else:
+            high = middle
+    return float(low)
+
+
+def exact_of(audit: Results, *names: str) -> list[Fraction]:
+    """Return the values (SI) of several entries."""
+    return [audit.exact(name) for name in names]
+
+
+TARGETS = ("rha", "stainless")
+"""The endings of the ids of the two Frank-Zook values: armor, and stainless steel."""
+
+
 @concerning("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
 def frank_zook_values(audit: Results) -> Finding:
     """What would give the two printed values."""
@@ -379,11 +453,60 @@ def frank_zook_values(audit: Results) -> Finding:
         == {Verdict.NOT_REPRODUCED},
         "the value for armor is in no form and under no convention of rounding, choices exact",
     )
-    slips = proves(
-        "slips",
-        not any(slip.fits for slip in audit.explainer.slips(audit.ledger.claims["frank-zook-rha"])),
-        "no slip that is tried gives the value for armor",
+    tried = {name: audit.slips(audit.ledger.claims[f"frank-zook-{name}"]) for name in TARGETS}
+    names = {name: {slip.name for slip in fitting} for name, (_, fitting) in tried.items()}
+    members = equals(
+        "members", "1721", tried["rha"][0].members, "1",
+        "different values of the family of slips that is generated, for armor",
+    )  # fmt: skip
+    fit_rha = equals(
+        "fit_rha", "4", len(names["rha"]), "1", "members of the family that give the armor value"
     )
+    fit_stainless = equals(
+        "fit_stainless", "5", len(names["stainless"]), "1",
+        "members of the family that give the stainless value",
+    )  # fmt: skip
+    chance_rha = prints(
+        "chance_rha", "3.3", tried["rha"][0].expected, "1",
+        "how many members would give the armor value by accident",
+    )  # fmt: skip
+    chance_stainless = prints(
+        "chance_stainless", "3.4", tried["stainless"][0].expected, "1",
+        "how many members would give the stainless value by accident",
+    )  # fmt: skip
+    fit_both = equals(
+        "fit_both", "0", len(names["rha"] & names["stainless"]), "1", "members that give both"
+    )
+    multiplied_rha, multiplied_stainless = (
+        typed_without_brackets(audit, exact(DENSITY), R_t)
+        for R_t in (exact("fz-resistance-rha"), exact("fz-resistance-stainless"))
+    )
+    multiplied = prints(
+        "multiplied", "0.278503", multiplied_rha, "1",
+        "Eq. 16 with /2*k_t typed without brackets and X/R twice X/D, armor, 7850 kg/m^3",
+    )  # fmt: skip
+    multiplied_other = prints(
+        "multiplied_other", "0.328", multiplied_stainless, "1", "the same, stainless steel"
+    )
+    below = prints(
+        "below", "7849.7", density_that_gives(audit, "frank-zook-rha"), "kg/m^3",
+        "target density below which that prints as the armor value",
+    )  # fmt: skip
+    with_mass = judge.inference(DENSITY).with_mass.ends
+    always = proves(
+        "always",
+        with_mass[1] < density_that_gives(audit, "frank-zook-rha"),
+        "it does for every density that the header of Table A-1 admits with its printed mass",
+    )
+    on_k_1 = prints(
+        "on_k_1", "0.29674", density_on_k_1(audit, exact("fz-resistance-stainless")), "1",
+        "X/R twice X/D, the density ratio on k_1 in place of L/D, stainless steel",
+    )  # fmt: skip
+    on_k_1_other = prints(
+        "on_k_1_other", "0.252", density_on_k_1(audit, exact("fz-resistance-rha")), "1",
+        "the same, armor",
+    )  # fmt: skip
+    assumed = equals("assumed", "7850", exact(DENSITY), "kg/m^3", "target density that is taken")
     inertia_ = prints("inertia", "1.3128", sum_, "1", "L/D rho_p/rho_t + k_1")
     z_ = prints("z", "2.0528", z, "GPa", "k_t rho_t V^2")
     R_steel = exact("fz-resistance-stainless") / 10**9
@@ -396,8 +519,8 @@ def frank_zook_values(audit: Results) -> Finding:
     return conclude(
         "frank-zook-values",
         "unstated input",
-        title=f"{text('frank-zook-stainless')} is {off} % from the derived {derived}; "
-        f"{text('frank-zook-rha')} stays unexplained",
+        title=f"{text('frank-zook-stainless')} is {off} % from the derived {derived}; what gave "
+        f"{text('frank-zook-rha')} is open",
         statement=f"As derived from Eqs. 14 and 15 and with {text('fz-resistance-stainless')} Pa "
         f"exactly, X/R is {derived}, not {text('frank-zook-stainless')}. It is at least "
         f"{least_exact} for all other inputs that print like the report's "
@@ -405,15 +528,24 @@ def frank_zook_values(audit: Results) -> Finding:
         f"sphere's). If that resistance is itself rounded, {text('frank-zook-stainless')} can be "
         f"reached; at {text('a1-initial-velocity')} m/s exactly it needs a target density that the "
         f"header of Table A-1 as printed excludes, as those that it admits give {least_admitted} "
-        f"or more. Two possible explanations, neither of them proven: on a grid of {grid} GPa the "
-        f"resistance that comes nearest to the observed {text('observed-depth-ratio')} is "
-        f"{nearest} GPa, and it gives {after}; and the derived {derived}, rounded, gives back "
-        f"{back} GPa, which prints {text('fz-resistance-stainless', 'GPa')}. In the derived form "
-        f"{text('frank-zook-rha')} needs R_t = {rha_resistance} GPa (printed "
-        f"{text('fz-resistance-rha', 'GPa')}) or V = {rha_velocity} m/s (printed "
-        f"{text('a1-initial-velocity')}); no input within its rounding, and no slip that was "
-        "tried, gives it. One-edit misprints that would are listed with the number; nothing speaks "
-        "for any of them. It is unexplained.",
+        f"or more. In the derived form {text('frank-zook-rha')} needs R_t = {rha_resistance} GPa "
+        f"(printed {text('fz-resistance-rha', 'GPa')}) or V = {rha_velocity} m/s (printed "
+        f"{text('a1-initial-velocity')}); no input within its rounding gives it. What slips would "
+        "give is computed for a family of them, generated part by part: Eq. 16 with one slip or "
+        "two, each with and without the missing factor of 2. The family has "
+        f"{members} different values. {fit_rha} of them print {text('frank-zook-rha')} and "
+        f"{fit_stainless} print {text('frank-zook-stainless')}, where {chance_rha} and "
+        f"{chance_stainless} would by accident; {fit_both} print both. The one for armor with the "
+        'fewest departures: "/2kt" typed into a cell as /2*k_t multiplies by k_t. With X/R twice '
+        f"X/D that gives {multiplied} for {assumed} kg/m^3, and prints {text('frank-zook-rha')} "
+        f"for every density below {below}, so for all that the header with its printed mass "
+        f"admits; for stainless steel it gives {multiplied_other}. With the density ratio on k_1 "
+        f"in place of L/D, X/R twice X/D, stainless steel gives {on_k_1}, which prints "
+        f"{text('frank-zook-stainless')}, and armor {on_k_1_other}. Two other ways to "
+        f"{text('frank-zook-stainless')}: on a grid of {grid} GPa the resistance that comes "
+        f"nearest to the observed {text('observed-depth-ratio')} is {nearest} GPa, and it gives "
+        f"{after}; and the derived {derived}, rounded, gives back {back} GPa, which prints "
+        f"{text('fz-resistance-stainless', 'GPa')}. All of this is suggestive, none of it proven.",
         by_hand=f"{factor} * ln(1 + {z_}/{text('fz-resistance-stainless', 'GPa')}) = {steps[0]}; "
         f"with {nearest} in place of {text('fz-resistance-stainless', 'GPa')} {factor} * ln(1 + "
         f"{z_}/{nearest}) = {steps[1]}; with {rha_resistance} {factor} * ln(1 + "
@@ -422,7 +554,9 @@ def frank_zook_values(audit: Results) -> Finding:
         status="open",
         evidence=(
             derived, off, least_exact, least_admitted, grid, corner, needed, nearest, after, back,
-            rha_resistance, rha_velocity, rha_derived, never, slips, inertia_, z_,
+            rha_resistance, rha_velocity, rha_derived, never, inertia_, z_, members, fit_rha,
+            fit_stainless, chance_rha, chance_stainless, fit_both, multiplied, multiplied_other,
+            below, always, on_k_1, on_k_1_other, assumed,
         ),
         steps=steps,
     )  # fmt: skip
@@ -491,32 +625,58 @@ def sphere_equivalent(audit: Results) -> Finding:
     """The report's two sentences on the cylinder that stands for the sphere do not fit together."""
     text, exact = audit.text, audit.exact
     around = "circumscribed-length-ratio"
+    R_armor, R_steel = exact("fz-resistance-rha"), exact("fz-resistance-stainless")
+    # A cylinder with L = d has the sphere's mass if (pi/4) d^3 = (pi/6) D^3. Eq. 16 then gives
+    # X/d with its L/D, and X/R = 2 (X/d) (d/D).
+    narrower = cbrt(2 / 3)
     ratio = equals(
         "ratio", "2/3", exact("sphere-length-ratio") / exact(around), "1",
         "L/D of the cylinder with the sphere's diameter and mass",
     )  # fmt: skip
+    diameter = prints(
+        "diameter", "0.874", narrower, "1",
+        "diameter of a cylinder with L/D = 1 and the sphere's mass, over the sphere's",
+    )  # fmt: skip
+    equal_rha = prints(
+        "equal_rha", "0.286", derived_ratio(audit, R_armor, around) * narrower, "1",
+        "X/R from Eqs. 14 and 15 for that cylinder, R_t of armor",
+    )  # fmt: skip
+    equal_stainless = prints(
+        "equal_stainless", "0.338", derived_ratio(audit, R_steel, around) * narrower, "1",
+        "X/R from Eqs. 14 and 15 for that cylinder, stainless steel",
+    )  # fmt: skip
+    heavier = prints(
+        "heavier", "1.5", 1 / exact("sphere-length-ratio"), "1",
+        "mass of the cylinder with L/D = 1 around the sphere, over the sphere's",
+    )  # fmt: skip
     long_rha = prints(
-        "long_rha", "0.328", derived_ratio(audit, exact("fz-resistance-rha"), around), "1",
-        "X/R from Eqs. 14 and 15 with L/D = 1, R_t of armor",
+        "long_rha", "0.328", derived_ratio(audit, R_armor, around), "1",
+        "X/R from Eqs. 14 and 15 for the cylinder around the sphere, R_t of armor",
     )  # fmt: skip
     long_stainless = prints(
-        "long_stainless", "0.386", derived_ratio(audit, exact("fz-resistance-stainless"), around),
-        "1", "X/R from Eqs. 14 and 15 with L/D = 1, stainless steel",
+        "long_stainless", "0.386", derived_ratio(audit, R_steel, around), "1",
+        "X/R from Eqs. 14 and 15 for the cylinder around the sphere, stainless steel",
     )  # fmt: skip
-    step = calculated("0.667", Fraction(4, 6))
+    steps = (calculated("0.667", Fraction(4, 6)), calculated("0.874", (4 / 6) ** (1 / 3)))
     return conclude(
         "sphere-equivalent",
         "wording",
-        title="A sphere has two thirds of the mass of the cylinder with L/D = "
-        f"{text(around)} around it",
+        title="A cylinder of the sphere's mass has L/D = "
+        f"{text('sphere-length-ratio')} at its diameter, or L/D = {text(around)} at a smaller one",
         statement='"Assume that a sphere is the mass equivalent of a cylinder with L/D = 1. '
         'Therefore, the L/D ratio for the sphere equivalent is 2/3": the second sentence does not '
-        f"follow from the first, but its {ratio} is right for a cylinder of the sphere's diameter "
-        f"and mass. With L/D = {text(around)} in its place X/R would be {long_rha} and "
-        f"{long_stainless}, neither of them printed.",
-        by_hand=f"(pi/6) D^3 = (pi/4) D^2 L gives L/D = 4/6 = {step}.",
+        f"follow from the first. Its {ratio} is right for a cylinder of the sphere's diameter and "
+        f"mass. Read as it stands, the first means a cylinder with L/D = {text(around)} and the "
+        f"sphere's mass, whose diameter is {diameter} of the sphere's: Eqs. 14 and 15 then give "
+        f"X/R = {equal_rha} and {equal_stainless}. The cylinder with L/D = {text(around)} around "
+        f"the sphere has {heavier} times its mass and gives {long_rha} and {long_stainless}. None "
+        "of the four is printed.",
+        by_hand=f"(pi/6) D^3 = (pi/4) D^2 L gives L/D = 4/6 = {steps[0]}; (pi/6) D^3 = (pi/4) "
+        f"d^3 gives d/D = (4/6)^(1/3) = {steps[1]}.",
         settle="Nothing is open.",
         status="explained",
-        evidence=(ratio, long_rha, long_stainless),
-        steps=(step,),
-    )
+        evidence=(
+            ratio, diameter, equal_rha, equal_stainless, heavier, long_rha, long_stainless,
+        ),
+        steps=steps,
+    )  # fmt: skip

@@ -125,10 +125,18 @@ def cth_pressure(audit: Results) -> Finding:
     )
     interface = prints("interface", "248", u, "m/s", "velocity of the contact then")
     times = prints("times", "1.9", plane / exact("cth-pressure"), "1", "that pressure over CTH's")
+    radius, V = audit["cth-diameter"] / 2, audit["cth-velocity"]
+    # The edge of the contact is at (2 R V t)^(1/2) and moves with R V over that: down to the speed
+    # U of the shock in the steel at R V/U.
+    shock_speed = audit["304-hugoniot-speed"] + audit["304-hugoniot-slope"] * u
     time = prints(
-        "time", "3", exact("cth-diameter") / (2 * exact("copper-hugoniot-speed")), "ns",
-        "radius over the sound speed of copper",
+        "time", "0.13", radius * V / (2 * shock_speed**2), "ns",
+        "time until the contact's edge is slower than the shock in the steel, R V/(2 U^2)",
     )  # fmt: skip
+    edge = prints(
+        "edge", "1.3", radius * V / shock_speed, "um", "distance of that edge from the axis, R V/U"
+    )
+    speed = prints("speed", "4.94", shock_speed / 1000, "1", "shock speed in the steel in km/s")
     flow_low = prints("flow_low", "3.08", stress[3], "GPa", "rho_t V^2/2 + R_t, beta = 3")
     flow_high = prints("flow_high", "4.48", stress[5], "GPa", "rho_t V^2/2 + R_t, beta = 5")
     steps = (
@@ -143,8 +151,9 @@ def cth_pressure(audit: Results) -> Finding:
         "plane shock",
         statement=f"Two flat plates of copper and 304 that meet at {text('cth-velocity')} m/s "
         f"press {shock} GPa on each other, by their published shock relations: {times} times CTH's "
-        f"greatest pressure. Where a sphere first touches, this lasts less than the {time} ns in "
-        "which sound crosses the radius. The model's own rho_t v^2/2 + R_t is "
+        "greatest pressure. Where a sphere first touches, that lasts until the edge of the contact "
+        f"is slower than the shock, {speed} km/s in the steel, and the pressure runs out: for "
+        f"{time} ns, up to {edge} um from the axis. The model's own rho_t v^2/2 + R_t is "
         f"{flow_low} and {flow_high} GPa at the impact (beta = {text('depth-beta-3-beta')} and "
         f"{text('depth-beta-5-beta')}), and less after it. So {text('cth-pressure')} GPa "
         "contradicts neither, if the grid or the output interval of that calculation did not "
@@ -155,6 +164,6 @@ def cth_pressure(audit: Results) -> Finding:
         "GPa.",
         settle="CTH's cell size and the times of its output.",
         status="open",
-        evidence=(shock, interface, times, time, flow_low, flow_high),
+        evidence=(shock, interface, times, time, edge, speed, flow_low, flow_high),
         steps=steps,
     )

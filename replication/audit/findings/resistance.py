@@ -5,8 +5,9 @@ from math import cbrt, expm1, log, sqrt
 
 from reference.units import to_si
 from replication.audit.findings.evidence import calculated, concerning, conclude, prints, proves
+from replication.audit.inference import DENSITY
 from replication.audit.record import Finding
-from replication.audit.results import DENSITY, Results, case, exact_ratio
+from replication.audit.results import Results, case, exact_ratio
 from replication.models.crater import crater_depth
 
 
@@ -183,15 +184,22 @@ def observed_beta(audit: Results) -> Finding:
     )
 
 
+def johnson_cook_copper(audit: Results) -> float:
+    """Johnson and Cook's flow stress of copper [Pa] at a strain of one, unheated.
+
+    The strain rate is that which the report estimates, 10^7 per second, far beyond the law's fit.
+    """
+    at_strain_1 = audit["copper-johnson-cook"] + audit["copper-johnson-cook-hardening"]
+    return at_strain_1 * (1 + audit["copper-johnson-cook-rate"] * log(audit["strain-rate"]))
+
+
 @concerning("copper-yield", "copper-yield-bound", "a1-resistance", "eq6")
 def rigid_strength(audit: Results) -> Finding:
     """A rigid particle needs far more strength than the copper has."""
     text, exact = audit.text, audit.exact
     Y_p = exact("copper-yield")
     stress = {beta: impact_pressure(audit) + R_t for beta, R_t in resistances(audit).items()}
-    johnson_cook = (exact("copper-johnson-cook") + exact("copper-johnson-cook-hardening")) * (
-        1 + float(exact("copper-johnson-cook-rate")) * log(exact("strain-rate"))
-    )
+    johnson_cook = johnson_cook_copper(audit)
     sigma_5 = prints("sigma_5", "4.48", stress[5], "GPa", "Sigma at 500 m/s, beta = 5")
     sigma_3 = prints("sigma_3", "3.08", stress[3], "GPa", "Sigma at 500 m/s, beta = 3")
     multiple_5 = prints(

@@ -19,9 +19,9 @@ from replication.audit.findings.evidence import (
     prints,
     proves,
 )
-from replication.audit.inference import Admission
+from replication.audit.inference import DENSITY, Admission
 from replication.audit.record import Finding
-from replication.audit.results import DENSITY, Results, case
+from replication.audit.results import Results, case
 from replication.models import depth, sheet
 
 
@@ -131,9 +131,19 @@ def target_density(audit: Results) -> Finding:
         "7.93 g/cm^3 is possible only if the velocity or the step is rounded, too; drag at the "
         "initial velocity",
     )  # fmt: skip
-    kinslow = proves(
-        "kinslow", admits("304-density-kinslow", Admission.HEADER_ROUNDED),
-        "7896 is possible only with a rounded header",
+    printed_for_304 = [source for name, source in sources.items() if "304-density-" in name]
+    admissions = [judge.admission(source) for source in printed_for_304]
+    numbers_304 = equals(
+        "numbers_304", "10", len(printed_for_304), "1",
+        "densities of 304 that the cited sources print",
+    )  # fmt: skip
+    as_rounded = equals(
+        "as_rounded", "2", admissions.count(Admission.AS_ROUNDED), "1",
+        "of them admitted as numbers of one or two digits: 7.9 and 8 g/cm^3",
+    )  # fmt: skip
+    with_rounded_header = equals(
+        "with_rounded_header", "4", admissions.count(Admission.HEADER_ROUNDED), "1",
+        "of them possible only with a rounded header: 7896 kg/m^3, 0.285, 0.286 and 0.29 lb/in^3",
     )  # fmt: skip
     depths = proves(
         "depths",
@@ -161,8 +171,10 @@ def target_density(audit: Results) -> Finding:
         f"for {centered_least} to {centered_greatest}, the depths for a part of these.) The usual "
         f"{text('carbon-steel-density')} of carbon steel lies inside, and so does "
         f"{text('304-density-textbook')} lb/in^3 ({textbook}), which a textbook's table prints for "
-        "304 stainless steel, the target that the report names. Other public sources print "
-        f"{text('304-density-kinslow')} kg/m^3 to {text('304-density-mill')} g/cm^3 for it. Now "
+        "304 stainless steel, the target that the report names. The cited sources print "
+        f"{numbers_304} densities for 304, {text('304-density-textbook')} lb/in^3 to "
+        f"{text('304-density-mill')} g/cm^3: this one lies inside, {as_rounded} more do as numbers "
+        f"of one or two digits, and {with_rounded_header} only if the header is rounded, too. Now "
         "let radius, particle density and resistance (then not beta times the flow stress) be "
         "rounded, with the sphere's mass and the drag at the initial velocity. With "
         f"{text('a1-initial-velocity')} m/s and {text('a-step')} ns exact no density outside "
@@ -187,7 +199,7 @@ def target_density(audit: Results) -> Finding:
             least, greatest, centered_least, centered_greatest, possible_least, possible_greatest,
             textbook, named, centered_mass_greatest, cut_least, cut_greatest, cut_odd,
             mass_greatest, assumed, edge, carbon, rounded_least, rounded_greatest, excluded, chosen,
-            kinslow, depths, mass, all_cells,
+            numbers_304, as_rounded, with_rounded_header, depths, mass, all_cells,
         ),
         steps=steps,
     )  # fmt: skip

@@ -141,8 +141,9 @@ def equation_1_scatter(audit: Results) -> Finding:
         "formula",
         title="Eq. 1 leaves out the particle's area; with it, sizes alone give about the stated "
         "scatter of slow particles",
-        statement="A constant drag coefficient gives a sphere that is much slower than the gas v "
-        "in proportion to (area/mass)^(1/2), so to the diameter to the power "
+        statement="The report says itself that Eq. 1 does not agree well with experiments on "
+        "copper and aluminum. One reason: a constant drag coefficient gives a sphere that is much "
+        "slower than the gas v in proportion to (area/mass)^(1/2), so to the diameter to the power "
         f"-{drag_power}; nearer to the gas's speed the size matters less. Eq. 1 has the mass "
         f"alone: the diameter to the power -{power}. To first order the printed sizes, "
         f"{text('mean-diameter')} and {text('diameter-deviation')} um, then scatter the velocity "

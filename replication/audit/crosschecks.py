@@ -1,0 +1,84 @@
+"""Numbers that no computation of the report gives, compared with others that limit them.
+
+"Not checkable" means only that this text does not decide a number. Three of these numbers can be
+compared all the same: with a range that the report states elsewhere, with the model's own time
+scale, and with rules and sheets that public sources print. Each has a function of its id.
+"""
+
+from collections.abc import Callable
+from fractions import Fraction
+from math import cbrt, pi
+
+import msgspec
+
+from reference.ledger import Ledger, claims_of_case
+from reference.printed import parse
+from reference.units import to_si
+from replication.audit.assessment import Verdict
+from replication.models.impact import Impact
+from replication.models.motion import stop_time
+from replication.text import number
+
+
+class CrossCheck(msgspec.Struct, frozen=True):
+    """The outcome of a comparison, and what was compared."""
+
+    verdict: Verdict
+    says: str
+
+
+def outlier_volume(ledger: Ledger) -> CrossCheck:
+    """Section 2: the outlier's volume, by its diameter among those of the other particles."""
+    diameter = cbrt(6 * float(ledger.value("outlier-volume")) / pi)
+    least, greatest = (ledger.claims[f"particle-size-{end}"] for end in ("least", "greatest"))
+    inside = float(least.value) <= diameter <= float(greatest.value)
+    verdict = Verdict.CONSISTENT if inside else Verdict.INCONSISTENT
+    says = (
+        f"A sphere of that volume is {number(diameter * 1e6, 3)} µm wide; the particles of the "
+        f"data fall between {least.shown} and {greatest.shown} µm."
+    )
+    return CrossCheck(verdict, says)
+
+
+def autodyne_time(ledger: Ledger) -> CrossCheck:
+    """Section 4: the time from which Autodyne's depth is final, scaled to the size of the particle.
+
+    Without rates, times scale with the diameter. The model's particle stops well before.
+    """
+    smaller = ledger.value("mean-diameter") / ledger.value("autodyne-diameter")
+    scaled = float(ledger.value("autodyne-time") * smaller)
+    entries = claims_of_case(5)
+    impact = Impact(**{name: float(ledger.value(claim)) for name, claim in entries.items()})
+    stop = stop_time(**impact.motion)
+    verdict = Verdict.CONSISTENT if scaled > stop else Verdict.INCONSISTENT
+    says = (
+        f"Scaled to a particle of {ledger.claims['mean-diameter'].shown} µm it is "
+        f"{number(scaled * 1e9, 2)} ns, {number(scaled / stop, 2)} times the time in which the "
+        "model's particle stops (beta = 5): the depth is final by then."
+    )
+    return CrossCheck(verdict, says)
+
+
+def brinell_ratio(ledger: Ledger) -> CrossCheck:
+    """Section 3: hardness over tensile strength, by two rules for steels and by a sheet of 304."""
+    per_kgf = to_si("gram_force/mm^2") * 1000
+    sources = ledger.sources
+    rules = [per_kgf / sources[name].value for name in ("hardness-rule-mpa", "hardness-rule-psi")]
+    of_304 = sources["304-brinell"].value * per_kgf / sources["304-tensile"].value
+    three = parse("3").interval()
+    agrees = all(three.contains(Fraction(ratio)) for ratio in rules)
+    verdict = Verdict.AGREES if agrees else Verdict.DIFFERS
+    says = (
+        f"By the rules that public sources print for steels it is {number(min(rules), 3)} to "
+        f"{number(max(rules), 3)}, which rounds to three. The hardness and the strength on a sheet "
+        f"of 304 give {number(of_304, 3)}, which does not: the rule fits annealed 304 less well."
+    )
+    return CrossCheck(verdict, says)
+
+
+CROSS_CHECKS: dict[str, Callable[[Ledger], CrossCheck]] = {
+    "outlier-volume": outlier_volume,
+    "autodyne-time": autodyne_time,
+    "brinell-ratio": brinell_ratio,
+}
+"""The function that compares each of these numbers."""
