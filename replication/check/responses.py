@@ -104,7 +104,8 @@ def is_plain(value: float) -> bool:
 @dataclass(frozen=True)
 class Trace:
     """What a table rests on outside its lines: cells, whether they are computed, and numbers typed
-    into formulas, with the cell of the formula (None for the number of a name)."""
+    into formulas, with the cell of the formula (None for the number of a name).
+    """
 
     cells: Mapping[Position, bool]
     numbers: Mapping[LiteralKey, tuple[float, Position | None]]

@@ -10,12 +10,12 @@ from foreign.writers import Exact
 from hypothesis import given
 from hypothesis import strategies as st
 from kept import kept, said
+from spreadsheets.recalculation import Calculation, calculate, parse
 from workbooks import rewritten
 
 from spreadsheets import foreign, package
 from spreadsheets.engines import address
 from spreadsheets.foreign import Book, Cell, WorkbookError, read
-from spreadsheets.recalculation import Calculation, calculate, parse
 
 SHEET, TABLE = "xl/worksheets/sheet1.xml", "xl/tables/table1.xml"
 MAIN, LINKS = "xl/workbook.xml", "xl/_rels/workbook.xml.rels"
