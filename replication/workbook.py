@@ -15,20 +15,29 @@ from typing import Any
 
 from reference.ledger import Convention, Ledger, load
 from reference.printed import Interval, Printed
+from reference.scheme import Scheme
 from reference.units import to_si
-from replication.audit.record import Record, Verdict, in_words
+from replication.audit.assessment import Verdict
+from replication.audit.record import Record
 from replication.cases import BETA_3, BETA_5
-from replication.error import COARSE, DIGITS, OFF_STOP, too_long
+from replication.error import COARSE, DIGITS, NOTES, OFF_STOP, too_long
 from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, estimates
 from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import Row, Sheet, deceleration, run
 from replication.text import with_unit
-from spreadsheets import cases, emit, sheets
-from spreadsheets.cases import CaseSheet, Input
-from spreadsheets.plan import MESSAGES, NOT_COMPUTED, Value, WorkbookPlan, place_of
-from spreadsheets.sheets import Findings
+from spreadsheets import emit
+from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, Value, WorkbookPlan
+from spreadsheets.sheets import messages, workbook_plan
+from spreadsheets.sheets.audit import AS_PRINTED, LIVE_VERDICTS, OTHERWISE, AuditResult
+from spreadsheets.sheets.case import CaseSheet, prepared_rows
+from spreadsheets.sheets.convergence import LEVELS, NO_ORDER, run_inputs
+from spreadsheets.sheets.figure_5 import POINTS
+from spreadsheets.sheets.inputs import Input, inputs_of
+from spreadsheets.sheets.table_a1 import ABOVE, TABLE_ROWS
+from spreadsheets.sheets.table_a1_check import DIGITS as DECIMALS
+from spreadsheets.sheets.table_a1_check import NO_DIFFERENCE
 from spreadsheets.verify import rounding_bound
 
 
@@ -56,7 +65,7 @@ class Workbook:
 
 def build(
     case: Impact | None = None,
-    scheme: str = "published",
+    scheme: Scheme | str = Scheme.PUBLISHED,
     rows: int | None = None,
     record: Record | None = None,
     *,
@@ -65,31 +74,31 @@ def build(
     """Build the workbook of a case; without a case, the report's own.
 
     The report's own has both of its cases, and what concerns only the report: the sheets with its
-    longer time step, the check of Table A-1, and the audit. scheme: one of `SCHEMES`. rows: how
-    many to prepare after row 0; by default twice as many as the longest case takes. record: the
+    longer time step, the check of Table A-1, and the audit. scheme: a `Scheme`, or its text. rows:
+    how many to prepare after row 0; by default twice as many as the longest case takes. record: the
     finished audit, which is made if it is needed but not given. Each input is rounded to a value
     that its cell can hold. Raises ValueError for an input outside of its limits, or too few rows.
 
     >>> book = build(BETA_5)
-    >>> place = book.plan.where["case.depth_um"]
-    >>> place[0], f"{book.values['case.depth_um']:.2f}"
+    >>> place = book.plan.where["depth_um"]
+    >>> place[0], f"{book.values['depth_um']:.2f}"
     ('Sheet beta 5', '7.67')
     """
-    ledger, findings = ledger or load(), None
+    ledger, scheme, audited = ledger or load(), Scheme(scheme), None
     impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
     pages = [_case_sheet(slug, impact, scheme) for slug, impact in impacts.items()]
-    typed = _typed_inputs(cases.inputs_of(pages, report=case is None), impacts, ledger)
+    typed = _typed_inputs(inputs_of(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
     # The cases are run with the inputs in their cells, and share all of these but beta.
     shared = {
         entry.attribute: si[entry.name] for entry in typed if entry.attribute not in ("", "beta")
     }
     computed = [run(replace(impact, **shared), scheme) for impact in impacts.values()]
-    count = cases.prepared_rows(max(sheet.steps for sheet in computed), rows)
+    count = prepared_rows(max(sheet.steps for sheet in computed), rows)
     if case is None:
         from replication.audit.audit import audit
 
-        findings = findings_of(record or audit(), scheme, ledger)
+        audited = result_of(record or audit(), scheme, ledger)
         pages += [replace(page, name=f"{page.name} coarse", coarse=True) for page in pages]
         coarse = [replace(sheet.impact, step=si["dt_coarse"]) for sheet in computed]
         computed += [run(impact, scheme) for impact in coarse]
@@ -97,15 +106,16 @@ def build(
         (replace(page, steps=sheet.steps, rows=count), sheet)
         for page, sheet in zip(pages, computed, strict=True)
     ]
-    plan = sheets.workbook_plan(ledger, [page for page, _ in runs], findings)
+    plan = workbook_plan(ledger, [page for page, _ in runs], audited)
     values = dict(_keyed(_values(ledger, runs, typed, si)))
-    if findings is not None:
-        values |= live_verdicts(ledger, plan, values, findings)
+    if audited is not None:
+        values |= live_verdicts(ledger, plan, values, audited)
     warnings = [
         f"{page.name}: {doubt}"
         for page, sheet in runs
         if not page.coarse
-        for doubt in doubts_about(sheet).values()
+        for kind, doubt in doubts_about(sheet).items()
+        if kind not in NOTES
     ]
     bounds = [
         rounding_bound(s.steps, s.impact.velocity, s.rows[-1].time, s.final_depth) for s in computed
@@ -113,19 +123,19 @@ def build(
     return Workbook(plan, values, warnings, max(bounds))
 
 
-def findings_of(record: Record, scheme: str, ledger: Ledger) -> Findings:
+def result_of(record: Record, scheme: Scheme, ledger: Ledger) -> AuditResult:
     """Return what the workbook shows of the audit, with the verdicts under the given scheme."""
-    convention = in_words(Convention(centered=scheme == "centered"))
+    convention = Convention(scheme=scheme)
     verdicts, explanations = {}, {}
     for claim in record.claims:
         verdicts[claim.id], explanations[claim.id] = claim.verdict, claim.explanation
-        for judged in claim.otherwise:
-            if all(getattr(judged, key) == word for key, word in convention.items()):
-                verdicts[claim.id] = judged.verdict
-        if scheme != "published" and ledger.claims[claim.id].by_scheme:
+        for judgement in claim.as_printed.judgements if claim.as_printed else ():
+            if judgement.convention == convention:
+                verdicts[claim.id] = judgement.verdict
+        if scheme is not Scheme.PUBLISHED and ledger.claims[claim.id].by_scheme:
             explanations[claim.id] = f"With the published scheme: {claim.explanation}"
     counts = Counter(verdicts.values())
-    return Findings(
+    return AuditResult(
         headline=record.headline,
         counts={verdict.value: counts[verdict] for verdict in Verdict},
         verdicts=verdicts,
@@ -169,9 +179,9 @@ def _typed_inputs(
     return typed
 
 
-def _case_sheet(slug: str, impact: Impact, scheme: str) -> CaseSheet:
+def _case_sheet(slug: str, impact: Impact, scheme: Scheme) -> CaseSheet:
     """Return the sheet of a case, whose length is not known yet."""
-    beta, name, label = impact.beta, "Sheet", MESSAGES["as_given"]
+    beta, name, label = impact.beta, "Sheet", messages.AS_GIVEN
     if beta is not None:
         # Spreadsheet programs round the decimal that they show, half away from zero, and write a
         # number that they join to a text with 15 digits.
@@ -189,7 +199,8 @@ def _case_sheet(slug: str, impact: Impact, scheme: str) -> CaseSheet:
 
 
 # The values, sheet by sheet. They are trees: the names of its branches, joined by dots, are the key
-# of a value. A list is a column of cells, and None stands for no cell.
+# of a value. A list is a column of cells, and None stands for no cell. The key of a quantity, which
+# is the defined name of its cell, has no dots.
 
 Tree = dict[str, Any]
 Runs = Sequence[tuple[CaseSheet, Sheet]]
@@ -200,124 +211,198 @@ def _values(
     ledger: Ledger, runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
 ) -> Tree:
     """Return every value but the live verdicts; `si` has the inputs in SI units, by name."""
-    inputs = _inputs(ledger, runs, typed, si)
-    pages = {page.part: _case_values(page, sheet, si) for page, sheet in runs}
+    fine = [(page, sheet) for page, sheet in runs if not page.coarse]
+    first, last = fine[0][1].impact, fine[-1][1].impact
+    values = _inputs(ledger, fine, typed, si)
+    for page, sheet in runs:
+        values |= _case_values(page, sheet, si)
     for page in (page for page, _ in runs if page.coarse):
-        values, fine = pages[page.part], pages[page.slug]["depth_um"]
-        over = values["depth_um"] / fine if fine else NOT_COMPUTED
-        values |= {"fine_depth_um": fine, "over_fine": over}
-    runs = [(page, sheet) for page, sheet in runs if not page.coarse]
-    first, (last_page, last) = runs[0][1].impact, runs[-1]
-    results = ("depth_um", "normalized_depth", "message")
-    table = pages[last_page.part]
-    columns = [name for name in table["row"] if name not in ("index", "depth_um")]
-    rows = {name: table["row"][name][: cases.TABLE_ROWS] for name in columns}
-    return {
-        "inputs": inputs,
-        "overview": {
-            "inputs_changed": inputs["changed"],
-            "inputs_unusable": 0,
-            **{part: {key: page[key] for key in results} for part, page in pages.items()},
-        },
-        "table": {name: table[name] for name in cases.ABOVE_TABLE} | {"row": rows},
-        "figure_3": {page.slug: _figure_3_curve(page, sheet) for page, sheet in runs},
-        "figure_5": _figure_5(last.impact, si),
-        "convergence": _convergence(runs, inputs),
-        "frank_zook": _frank_zook(last.impact, si),
-        "crater": _crater(first, si, float(ledger.value("observed-third"))),
-        "resistance": _resistance(runs, si),
-        **pages,
-    }
+        values |= _comparison(page, values)
+    values |= _overview(runs, values) | _table(*fine[-1])
+    for page, sheet in fine:
+        values |= _figure_3_curve(page, sheet)
+    return (
+        values
+        | {"figure_5": _figure_5(last, si), "convergence": _convergence(fine, values)}
+        | _frank_zook(last, si)
+        | _crater(first, si, float(ledger.value("observed-third")))
+        | _resistance(fine, si)
+    )
 
 
 def _inputs(
     ledger: Ledger, runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
 ) -> Tree:
+    """Return the values of the sheet Inputs: typed, in use, and what follows from them."""
     first = runs[0][1].impact
-    constants = {
+    changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
+    values: Tree = {
         "pi_": math.pi,
         "ksi_Pa": to_si("ksi"),
         "travel_most": COARSE,
         "excess_most": DIGITS,
         "off_stop_most": OFF_STOP,
-    }
-    derived = {
         "D_p": first.diameter,
         "M_p": first.mass,
         "half_step": first.step / 2 * 1e9,
         "mean_radius": si["D_mean"] / 2 * 1e6,
+        "inputs_from": "yours",
+        "inputs_changed": len(changed),
+        "inputs_unusable": 0,
+        "inputs.choice": "yours",
+        "inputs.no_choice": "",
+        "inputs.message": messages.CHANGED if changed else messages.UNCHANGED,
+        **{page.resistance: sheet.impact.target_resistance for page, sheet in runs},
     }
-    resistances = {
-        f"R_t{page.input_suffix}": sheet.impact.target_resistance for page, sheet in runs
-    }
-    changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
-    values: Tree = {f"{name}.check": "" for name in (*constants, *derived, *resistances)}
-    values |= constants | {
-        "from": "yours",
-        "taken": "yours",
-        "choice": "",
-        "unusable": 0,
-        "changed": len(changed),
-        "message": MESSAGES["changed" if changed else "unchanged"],
-        **derived,
-    }
-    values |= {f"{name}.written": number for name, number in constants.items()}
     for entry, number in typed.items():
         name = entry.name
         unchanged = "as inferred" if name == "rho_t" else "the report’s"
         check = "yours" if name in changed else unchanged
         values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
-    return values | resistances
+    return values
 
 
 def _case_values(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
-    impact, final = sheet.impact, sheet.rows[-1]
-    trust, message = _run_state(sheet)
-    v, at_rest = impact.velocity, _without_steps(impact)
-    at_stop = _without_steps(impact, to_stop=True)
-    rest, stop = at_rest["normalized_depth"], at_stop["normalized_depth"]
-    travel = impact.step * v / impact.radius
-    return {
+    """Return the values of the sheet of a case: its inputs, rows, results, and their state."""
+    impact = sheet.impact
+    repeated = {
         **impact.motion,
         **{name: getattr(impact, name) for name in ("mass", "diameter", "step", "stop_velocity")},
-        **{name: getattr(sheet, name) for name in ("steps", "final_depth", "normalized_depth")},
-        "label": page.label,
-        "renamed": None if page.resistance_given else "",
         "row": _row_columns(sheet, page.rows),
-        "message": message,
-        "trust": trust,
-        "stopped": 1,
-        "depth_um": sheet.final_depth * 1e6,
-        "stop_time": final.time,
-        "final_velocity": v if final.velocity_final is None else final.velocity_final,
-        "excess": sheet.normalized_depth / si["observed_ratio"],
-        **{name: at_rest[name] for name in ("pressure", "c")},
-        **{f"exact_{name}": at_rest[name] for name in ("normalized_depth", "depth_um")},
-        "travel": travel,
-        "too_long": too_long(travel),
-        "over_exact": sheet.normalized_depth / rest,
-        **{f"stop_{name}": at_stop[name] for name in ("pressure", "c", "normalized_depth")},
-        "stop_share": stop / rest,
-        "over_stop": sheet.normalized_depth / stop if stop else NOT_COMPUTED,
+        "renamed": None if page.resistance_given else "",
     }
+    quantities = {"label": page.label, **_results(sheet, si), **_exact(impact), **_state(sheet)}
+    if page.coarse:
+        quantities["longer"] = impact.step > si["dt_s"]
+    named = {f"{name}{page.suffix}": value for name, value in quantities.items()}
+    return {page.part: repeated, **named}
+
+
+def _results(sheet: Sheet, si: Mapping[str, float]) -> Tree:
+    final = sheet.rows[-1]
+    velocity = final.velocity_final
+    return {
+        "rows_used": len(sheet.rows),
+        "stopped": 1,
+        "final_depth": sheet.final_depth,
+        "depth_um": sheet.final_depth * 1e6,
+        "normalized_depth": sheet.normalized_depth,
+        "steps": sheet.steps,
+        "stop_time": final.time,
+        "final_velocity": sheet.impact.velocity if velocity is None else velocity,
+        "excess": sheet.normalized_depth / si["observed_ratio"],
+    }
+
+
+def _exact(impact: Impact) -> Tree:
+    """Return the depths without time steps, at rest and at the stop velocity."""
+    at_rest, at_stop = _without_steps(impact), _without_steps(impact, to_stop=True)
+    terms = {"pressure": "p", "ln": "ln", "c": "c", "h": "h", "normalized_depth": "X_R"}
+    return {
+        **{f"{name}_rest": at_rest[key] for key, name in terms.items()},
+        **{f"{name}_stop": at_stop[key] for key, name in terms.items()},
+        "X_rest": at_rest["depth_um"],
+        "stop_share": at_stop["normalized_depth"] / at_rest["normalized_depth"],
+    }
+
+
+def _state(sheet: Sheet) -> Tree:
+    """Return what tells whether a run can be trusted, and the message that says so."""
+    impact, kinds = sheet.impact, doubts_about(sheet).keys()
+    rest = _without_steps(impact)["normalized_depth"]
+    stop = _without_steps(impact, to_stop=True)["normalized_depth"]
+    travel = impact.step * impact.velocity / impact.radius
+    over_rest = sheet.normalized_depth / rest
+    conditions = {
+        "too_long": too_long(travel),
+        "too_deep": over_rest > 1 + DIGITS,
+        "off_stop": abs(sheet.normalized_depth - stop) > OFF_STOP * stop,
+        "no_steps": sheet.steps == 0,
+    }
+    doubts = sum(conditions.values())
+    return {
+        "travel": travel,
+        "over_rest": over_rest,
+        "over_stop": sheet.normalized_depth / stop if stop else NOT_AVAILABLE,
+        **conditions,
+        "doubts": doubts,
+        "reverses": "reversed" in kinds,
+        "early": stop / rest < 1 - DIGITS,
+        "trust": 0 if doubts else 1 if "reversed" in kinds else 2,
+        "message": _message(sheet),
+    }
+
+
+def _message(sheet: Sheet) -> str:
+    """Return what the workbook says of a run."""
+    kinds = doubts_about(sheet).keys()
+    if not kinds - {"reversed", "short"}:
+        if "reversed" in kinds:
+            return messages.REVERSED
+        return messages.EARLY if "short" in kinds else messages.COMPLETE
+    if sheet.steps == 0:
+        return messages.NO_STEPS
+    if sheet.steps == 1:
+        return messages.ONE_STEP
+    return messages.COARSE if "coarse" in kinds else messages.DOUBTFUL
+
+
+def _comparison(page: CaseSheet, values: Tree) -> Tree:
+    """Compare the depth of a sheet with the coarser step with that of the finer one."""
+    fine, depth_um = values[f"depth_um{page.input_suffix}"], values[f"depth_um{page.suffix}"]
+    return {
+        f"fine_depth_um{page.suffix}": fine,
+        f"over_fine{page.suffix}": depth_um / fine if fine else NOT_AVAILABLE,
+    }
+
+
+def _said(page: CaseSheet, values: Tree) -> str:
+    """Return the label of a case with the state of its run."""
+    return f"{page.label}: {values[f'message{page.suffix}']}"
+
+
+def _overview(runs: Runs, values: Tree) -> Tree:
+    names = "inputs_changed", "inputs_unusable"
+    shown: Tree = {name: values[name] for name in names}
+    for page, _ in runs:
+        shown[page.part] = {
+            "depth_um": values[f"depth_um{page.suffix}"],
+            "normalized_depth": values[f"normalized_depth{page.suffix}"],
+            "message": _said(page, values),
+        }
+    curves = {page.slug: {"message": _said(page, values)} for page, _ in runs if not page.coarse}
+    return {"overview": shown, "figure_3": curves}
+
+
+def _table(page: CaseSheet, sheet: Sheet) -> Tree:
+    """Return the cells of Table A-1, which are the first rows of a case."""
+    impact = sheet.impact
+    above = {**impact.motion, "mass": impact.mass, "diameter": impact.diameter}
+    columns = _row_columns(sheet, page.rows)
+    rows = {
+        name: cells[:TABLE_ROWS]
+        for name, cells in columns.items()
+        if name not in ("index", "depth_um")
+    }
+    return {"table": {name: above[name] for name in ABOVE} | {"row": rows}}
 
 
 def _figure_3_curve(page: CaseSheet, sheet: Sheet) -> Tree:
     """Return a curve of Figure 3 in ns and µm; after the stop, the last row is repeated."""
     rows = [sheet.rows[min(k, sheet.steps)] for k in range(page.rows + 1)]
+    key = f"figure_3.{page.slug}"
     return {
-        "time": [row.time * 1e9 for row in rows],
-        "depth": [row.depth * 1e6 for row in rows],
-        "message": f"{page.label}: {_run_state(sheet)[1]}",
+        f"{key}.time": [row.time * 1e9 for row in rows],
+        f"{key}.depth": [row.depth * 1e6 for row in rows],
     }
 
 
 def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
-    low, high, last = si["V_from"], si["V_to"], sheets.POINTS - 1
-    velocities = [low + (high - low) * point / last for point in range(sheets.POINTS)]
+    low, high, last = si["V_from"], si["V_to"], POINTS - 1
+    velocities = [low + (high - low) * point / last for point in range(POINTS)]
     points = [_without_steps(replace(impact, velocity=velocity)) for velocity in velocities]
     columns = {key: [point[key] for point in points] for key in points[0]}
-    return {"message": MESSAGES["all_points"], "velocity": velocities, **columns}
+    return {"message": messages.ALL_POINTS, "velocity": velocities, **columns}
 
 
 def _convergence(runs: Runs, inputs: Tree) -> Tree:
@@ -325,10 +410,10 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
 
     With it come the inputs of these runs, and those in use.
     """
-    of_runs = {name: inputs[name] for name in sheets.run_inputs([page for page, _ in runs])}
-    values: Tree = {"message": MESSAGES["current"]}
+    of_runs = {name: inputs[name] for name in run_inputs([page for page, _ in runs])}
+    values: Tree = {"message": messages.CURRENT}
     for page, sheet in runs:
-        time_steps = ladder(sheet.impact.step, sheets.LEVELS)
+        time_steps = ladder(sheet.impact.step, LEVELS)
         rest = depth.final_depth(**sheet.impact.motion) * 1e6
         levels = [run(replace(sheet.impact, step=step), sheet.scheme) for step in time_steps]
         depths = [level.final_depth * 1e6 for level in levels]
@@ -343,8 +428,8 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
             "depth_um": depths,
             "error": errors,
             "size": list(map(abs, errors)),
-            "order": [None, *(sheets.NO_ORDER if order is None else order for order in orders)],
-            "state": [_run_state(level)[1] for level in levels],
+            "order": [None, *(NO_ORDER if order is None else order for order in orders)],
+            "state": list(map(_message, levels)),
         }
     return values | {"run": of_runs, "in_use": of_runs, "same": dict.fromkeys(of_runs, 1)}
 
@@ -352,15 +437,17 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
 def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
     ratio, k_t = estimates.sphere_length_ratio(), si["k_t"]
     v, target = impact.velocity, impact.target_density
-    values: Tree = {"length_ratio": ratio}
-    for which, name in (("rha", "R_t_RHA"), ("lower", "R_t_lower")):
-        r_t = si[name]
+    values: Tree = {"L_D": ratio, "frank_zook": {}}
+    for steel in ("RHA", "lower"):
+        r_t = si[f"R_t_{steel}"]
+        z = k_t * target * v * v / r_t
         arguments = ratio, impact.particle_density, target, si["k_1"], k_t, r_t, v
-        values[which] = {
-            "resistance": r_t,
-            "pressure": k_t * target * v * v / r_t,
-            "as_printed": estimates.frank_zook_as_printed(*arguments),
-            "derived": estimates.frank_zook_derived(*arguments),
+        values["frank_zook"][f"R_t_{steel}"] = r_t
+        values |= {
+            f"z_{steel}": z,
+            f"ln_{steel}": math.log1p(z),
+            f"X_R_{steel}": estimates.frank_zook_as_printed(*arguments),
+            f"X_R_{steel}_derived": estimates.frank_zook_derived(*arguments),
         }
     return values
 
@@ -371,59 +458,61 @@ def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
     volume_um3 = volume * 1e6 * 1e6 * 1e6
     contact = crater.contact_diameter(third, si["D_mean"])
     values: Tree = {
-        "particle_volume": volume,
-        "particle_volume_um3": volume_um3,
-        "on_line": si["CV_PV_line"] * volume_um3,
-        "third": third,
-        "contact_diameter": contact,
-        "contact_diameter_um": contact * 1e6,
+        "PV_m3": volume,
+        "PV_um3": volume_um3,
+        "CV_line_um3": si["CV_PV_line"] * volume_um3,
+        "y_contact": third,
+        "contact": contact,
+        "contact_um": contact * 1e6,
     }
-    for which, name in (("least", "CV_PV"), ("line", "CV_PV_line")):
+    for which, name in (("crater", "CV_PV"), ("line", "CV_PV_line")):
         y = crater.depth_from_volume_ratio(si[name])
         x = y * radius
         volume = crater.cap_volume(x, radius)
-        values[which] = {
-            "normalized_depth": y,
-            "over_diameter": y / 2,
-            "depth": x,
-            "depth_um": x * 1e6,
-            "volume": volume,
-            "volume_um3": volume * 1e6 * 1e6 * 1e6,
-            "ratio": crater.volume_ratio(y),
+        volume_key = {"crater": "CV_crater_um3", "line": "CV_line_again_um3"}[which]
+        values |= {
+            f"h_{which}": math.asin(math.sqrt(si[name])) / 3,
+            f"X_R_{which}": y,
+            f"X_D_{which}": y / 2,
+            f"X_{which}": x,
+            f"X_{which}_um": x * 1e6,
+            f"CV_{which}": volume,
+            volume_key: volume * 1e6 * 1e6 * 1e6,
+            f"{name}_again": crater.volume_ratio(y),
         }
-    for which, size in (("smallest", "d_min"), ("largest", "d_max")):
+    for which, size in (("min", "d_min"), ("max", "d_max")):
         mass = particle_mass(si[size] / 2, impact.particle_density)
         velocity = estimates.particle_velocity(impact.velocity, mass, impact.mass)
-        values |= {f"{which}_mass": mass, f"{which}_velocity": velocity}
+        values |= {f"m_{which}": mass, f"V_{which}": velocity}
     return values
 
 
 def _resistance(runs: Runs, si: Mapping[str, float]) -> Tree:
     alpha = estimates.walker_anderson_alpha(si["E_t"], si["Y_steel"])
     betas = {
-        "goodier_beta": estimates.goodier_beta(si["q_Y"]),
-        "walker_anderson_beta": estimates.walker_anderson_beta(alpha),
-        "brinell_beta": si["HB_ratio"],
+        "beta_G": estimates.goodier_beta(si["q_Y"]),
+        "beta_WA": estimates.walker_anderson_beta(alpha),
+        "beta_B": si["HB_ratio"],
     }
     grains = {name: si[f"S_{name}"] / 1e6 for name in ("feathery", "clear", "bulk")}
     mean = (grains["feathery"] + grains["clear"]) / 2
     values: Tree = betas | {
         "alpha": alpha,
-        "least_beta": min(betas.values()),
-        "greatest_beta": max(betas.values()),
-        **grains,
-        "mean_grain": mean,
+        "beta_least": min(betas.values()),
+        "beta_greatest": max(betas.values()),
+        **{f"S_{name}_MPa": strength for name, strength in grains.items()},
+        "S_mean": mean,
         "clear_over_bulk": grains["clear"] / grains["bulk"],
-        "grain_over_bulk": mean / grains["bulk"],
+        "mean_over_bulk": mean / grains["bulk"],
         "strain_rate": estimates.strain_rate(si["V_impact"], si["L_typ"]),
     }
     for page, sheet in runs:
         impact, r_t = sheet.impact, sheet.impact.target_resistance
         stress = estimates.centerline_stress(impact.target_density, impact.velocity, r_t)
-        values[page.slug] = {
-            "target_resistance": r_t,
-            "centerline_stress": stress,
-            "over_copper": stress / si["Y_copper"],
+        values |= {
+            f"resistance.{page.resistance}": r_t,
+            f"stress{page.input_suffix}": stress,
+            f"stress_over_copper{page.input_suffix}": stress / si["Y_copper"],
         }
     return values
 
@@ -431,8 +520,8 @@ def _resistance(runs: Runs, si: Mapping[str, float]) -> Tree:
 def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
     """Yield the values of a tree with their keys.
 
-    >>> dict(_keyed({"low": {"steps": 85, "time": [0.0, 2e-10]}}))
-    {'low.steps': 85.0, 'low.time[0]': 0.0, 'low.time[1]': 2e-10}
+    >>> dict(_keyed({"steps": 85, "low": {"time": [0.0, 2e-10]}}))
+    {'steps': 85.0, 'low.time[0]': 0.0, 'low.time[1]': 2e-10}
     """
     if isinstance(tree, dict):
         for name, branch in tree.items():
@@ -445,7 +534,7 @@ def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
 
 
 def live_verdicts(
-    ledger: Ledger, plan: WorkbookPlan, values: Mapping[str, Value], findings: Findings
+    ledger: Ledger, plan: WorkbookPlan, values: Mapping[str, Value], audited: AuditResult
 ) -> dict[str, Value]:
     """Return the live verdicts, by key, on the values of the cells that compute claims.
 
@@ -455,27 +544,28 @@ def live_verdicts(
     audit: Tree = {}
     table: Tree = {}
     for claim in ledger.claims.values():
-        if not claim.workbook:
+        if claim.id not in plan.claims:
             continue
-        value = values[plan.cells[place_of(claim.workbook)].key]
+        value = values[plan.cells[plan.claims[claim.id]].key]
         audit[claim.id] = {"computed": value, "verdict": _live_verdict(value, claim.interval())}
         if claim.place.cell and claim.printed:
             difference = _difference(value, claim.printed, exact=claim.is_exact)
             table[claim.place.cell] = audit[claim.id] | {"difference": difference}
     verdicts = [judged["verdict"] for judged in audit.values()]
-    counts = {ending: verdicts.count(verdict) for verdict, ending in sheets.KINDS}
-    overview = {f"audit_{ending}": count for ending, count in counts.items()}
-    for name in (*findings.failing, *findings.differing):
+    counts = {name: verdicts.count(verdict) for verdict, name in LIVE_VERDICTS.items()}
+    overview: Tree = dict(counts)
+    for name in (*audited.failing, *audited.differing):
         if name in audit:
             overview[name] = audit[name]["computed"]
-    return dict(_keyed({"audit": audit | counts, "overview": overview, "table_check": table}))
+    return dict(_keyed({**counts, "audit": audit, "overview": overview, "table_check": table}))
 
 
 def _without_steps(impact: Impact, to_stop: bool = False) -> dict[str, float]:
     """Return the depth at the velocity u without time steps, and the terms of its equation.
 
     u is 0 (at rest), or with `to_stop` the stop velocity. `pressure` is
-    p = rho_t (V^2 - u^2) / (2 R_t + rho_t u^2) [1], and c = (4 rho_p / 3 rho_t) ln(1 + p) [1].
+    p = rho_t (V^2 - u^2) / (2 R_t + rho_t u^2) [1], `ln` is ln(1 + p), `c` is
+    (4 rho_p / 3 rho_t) ln(1 + p), and `h` the angle asin(sqrt(3c)/2)/3 with c of at most 2/3.
     """
     v, radius, particle, target, r_t = impact.motion.values()
     u, reached = 0.0, depth.normalized_depth(v, particle, target, r_t)
@@ -483,26 +573,15 @@ def _without_steps(impact: Impact, to_stop: bool = False) -> dict[str, float]:
         u = min(impact.stop_velocity, v)  # an impact below the stop velocity has depth 0
         reached = depth.depth_at_velocity(u, **impact.motion) / radius
     pressure = target * (v - u) * (v + u) / (2 * r_t + target * u * u)
+    c = 4 * particle / (3 * target) * math.log1p(pressure)
     return {
         "pressure": pressure,
-        "c": 4 * particle / (3 * target) * math.log1p(pressure),
+        "ln": math.log1p(pressure),
+        "c": c,
+        "h": math.asin(math.sqrt(3 * min(c, 2 / 3)) / 2) / 3,
         "normalized_depth": reached,
         "depth_um": radius * reached * 1e6,
     }
-
-
-def _run_state(sheet: Sheet) -> tuple[int, str]:
-    """Return how far a run can be trusted, and the message that says so.
-
-    2: it is sound; 1: only its last velocity is not; 0: it must not be used.
-    """
-    kinds = doubts_about(sheet).keys()
-    if not kinds - {"reversed", "short"}:
-        if "reversed" in kinds:
-            return 1, MESSAGES["reversed"]
-        return 2, MESSAGES["early" if "short" in kinds else "complete"]
-    doubt = "coarse" if "coarse" in kinds else "doubtful"
-    return 0, MESSAGES[{0: "no_steps", 1: "one_step"}.get(sheet.steps, doubt)]
 
 
 def _row_columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]]:
@@ -511,7 +590,7 @@ def _row_columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]
     columns: dict[str, Any] = dict(zip(Row._fields, zip(*sheet.rows, strict=True), strict=True))
     columns["index"] = range(len(sheet.rows))
     columns["depth_um"] = (x * 1e6 for x in columns["depth"])
-    if sheet.scheme == "centered":
+    if sheet.scheme == Scheme.CENTERED:
         materials = impact.radius, impact.mass, impact.target_density, impact.target_resistance
         columns["velocity_middle"] = [None]  # row 0 has none
         for row in sheet.rows[1:]:
@@ -535,12 +614,12 @@ def _live_verdict(value: Value, interval: Interval) -> str:
         low, high = (None if end is None else Fraction(float(end)) for end in ends)
         in_doubles = Interval(low, high, interval.lower_closed, interval.upper_closed)
         inside = in_doubles.contains(Fraction(value))
-    return sheets.AS_PRINTED if inside else sheets.OTHERWISE
+    return AS_PRINTED if inside else OTHERWISE
 
 
 def _difference(value: Value, printed: Printed, *, exact: bool) -> Value:
     """Return computed minus printed; in units of the last printed digit unless that is exact."""
     if not isinstance(value, float):
-        return "–"  # the table has fewer rows
+        return NO_DIFFERENCE
     difference = value - float(printed.value)
-    return difference if exact else round(difference / float(printed.quantum), sheets.DIGITS)
+    return difference if exact else round(difference / float(printed.quantum), DECIMALS)

@@ -1,7 +1,11 @@
 """Write a plan and its values as an .xlsx file: live formulas, each stored with its value.
 
-The same plan and values give the same bytes on every machine and on every day. The file contains
-the SHA-256 digest of its parts, so that a file that somebody changed is not taken for our own.
+The same plan and values give the same parts on every machine and on every day, and the same bytes
+with the same version of zlib. The file contains the SHA-256 digest of its parts, so that a file
+that somebody changed is not taken for our own.
+
+Cells with formulas are locked, without a password, and nothing else is: neither inputs and blank
+cells, nor formats, rows and columns.
 """
 
 import math
@@ -16,8 +20,9 @@ from pathlib import Path
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import TABLES, Cell, SheetPlan, Value, WorkbookPlan
+from spreadsheets.plan import Cell, Chart, SheetPlan, Value, WorkbookPlan
 from spreadsheets.safely import UNREADABLE, check_target
+from spreadsheets.styles import CURVES, RULES, STYLES
 
 _ARIAL = {"font_name": "Arial", "font_size": 10}
 
@@ -67,22 +72,26 @@ _CORRECTIONS = (
     ("xl/charts/", rb"</c:yVal>", rb'</c:yVal><c:smooth val="0"/>'),
     # XlsxWriter stores the value "" of a formula without the type that marks a text.
     ("xl/worksheets/", rb'(<c r="\w+" s="\d+")(><f>[^<]*</f><v></v>)', rb'\1 t="str"\2'),
+    # All columns after Z are unlocked as Z is; XlsxWriter would look at each of them in each row.
+    (
+        "xl/worksheets/",
+        rb'(max="26" width="[\d.]+" style="(\d+)"/>)</cols>',
+        rb'\1<col min="27" max="16384" width="9.140625" style="\2"/></cols>',
+    ),
 )
 """Changes to what XlsxWriter writes: start of a part's name, pattern and replacement."""
 
 
 def is_own(path: Path) -> bool:
-    """Whether a file is, byte for byte, a workbook that `to_bytes` made.
+    """Whether a file is a workbook that `to_bytes` made: its parts have the digest that it stores.
 
-    Compressing its parts again must give the same file. A file that another version of zlib
-    compressed therefore counts as changed.
+    How the parts are compressed does not matter, as it depends on the version of zlib.
     """
-    content = path.read_bytes()
     try:
-        parts = _parts(content)
+        parts = _parts(path.read_bytes())
     except UNREADABLE:
         return False
-    return _SEALED in parts and _sealed(parts) == content
+    return _SEALED in parts and _sealed(parts) == parts
 
 
 def _parts(content: bytes) -> dict[str, bytes]:
@@ -90,11 +99,16 @@ def _parts(content: bytes) -> dict[str, bytes]:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
-def _sealed(parts: dict[str, bytes]) -> bytes:
-    """Zip the parts, without time stamps, and store their digest as the seal."""
-    parts[_SEALED] = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
-    digest = sha256(b"".join((*map(str.encode, parts), *parts.values()))).hexdigest()
-    parts[_SEALED] = parts[_SEALED].replace(_UNSEALED.encode(), digest.encode())
+def _sealed(parts: Mapping[str, bytes]) -> dict[str, bytes]:
+    """Return the parts with their digest as the seal, which takes the place of an older one."""
+    seal = re.sub(rb">[0-9a-f]{64}<", f">{_UNSEALED}<".encode(), parts[_SEALED], count=1)
+    unsealed = {**parts, _SEALED: seal}
+    digest = sha256(b"".join((*map(str.encode, unsealed), *unsealed.values()))).hexdigest()
+    return {**unsealed, _SEALED: seal.replace(_UNSEALED.encode(), digest.encode())}
+
+
+def _zipped(parts: Mapping[str, bytes]) -> bytes:
+    """Zip the parts, without time stamps."""
     buffer = BytesIO()
     with zipfile.ZipFile(buffer, "w", zipfile.ZIP_DEFLATED) as archive:
         for name, part in parts.items():
@@ -111,45 +125,49 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     shown = cell_values(plan, values)
     # Arial must be the default font, too, since column widths are counted in its digits. It is
     # copied because XlsxWriter changes the dict.
-    options = {"in_memory": True, "default_format_properties": dict(_ARIAL)}
+    options = {"in_memory": True, "default_format_properties": {**_ARIAL, "locked": False}}
     file = BytesIO()
     book = xlsxwriter.Workbook(file, options)
 
     @cache
-    def style(name: str, number_format: str, wrap: bool) -> Any:
+    def style(name: str, number_format: str, wrap: bool, locked: bool) -> Any:
         name, sample, _ = name.partition(" sample")
-        look = {**_ARIAL, "font_color": "#000000", **TABLES["styles"][name], "text_wrap": wrap}
+        look = {**_ARIAL, "font_color": "#000000", **STYLES[name], "text_wrap": wrap}
         look |= {"align": "center"} if sample else {}
-        return book.add_format({**look, "num_format": number_format, "valign": "vcenter"})
+        return book.add_format(
+            {**look, "num_format": number_format, "valign": "vcenter", "locked": locked}
+        )
 
+    unlocked = book.add_format({**_ARIAL, "locked": False})
     book.set_properties(dict(plan.properties))
     book.set_custom_property(_SEAL, _UNSEALED)
     for sheet in plan.sheets:
         page = book.add_worksheet(sheet.name)
-        # XlsxWriter spends half of its time searching formulas for functions newer than Excel 2010.
-        # The plan has none, so only the "=" is removed.
-        page._prepare_formula = lambda formula: formula[1:]
-        _set_up(page, sheet)
+        _set_up(page, sheet, unlocked)
         for address, cell in sheet.cells.items():
-            look = style(cell.style, cell.shown, cell.wrap)
+            look = style(cell.style, cell.shown, cell.wrap, bool(cell.formula))
             _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
             # A width is counted in digits, and most letters are narrower than a digit.
             if cell.wrap and len(cell.text) > 1.2 * sheet.widths[address[0]]:
                 page.set_row(int(address[1:]) - 1, 30)
-            if cell.name:
+            if cell.named:
                 named = f"={_absolute(sheet.name, address)}"
-                if book.define_name(cell.name, named) == -1:
-                    raise ValueError(f"{cell.name!r} cannot name a cell in a workbook")
+                if book.define_name(cell.key, named) == -1:
+                    raise ValueError(f"{cell.key!r} cannot name a cell in a workbook")
         for rule in sheet.rules:
             # The format of a rule names only what it changes, so neither font nor number format.
-            look = book.add_format(TABLES["rules"][rule.style])
-            options = {"type": "formula", "criteria": rule.formula, "format": look}
+            options = {
+                "type": "formula",
+                "criteria": rule.formula,
+                "format": book.add_format(RULES[rule.style]),
+            }
             page.conditional_format(rule.cells, options)
-        if sheet.curves:
-            _draw(book, page, sheet, sheet.description(values))
+        if sheet.chart:
+            _draw(book, page, sheet.name, sheet.chart, shown[sheet.name], values)
     book.close()
     parts = _parts(file.getvalue())
-    return _sealed({name: _corrected(name, part) for name, part in parts.items()})
+    corrected = {name: _corrected(name, part) for name, part in parts.items()}
+    return _zipped(_sealed(corrected))
 
 
 def _corrected(name: str, part: bytes) -> bytes:
@@ -159,15 +177,26 @@ def _corrected(name: str, part: bytes) -> bytes:
     return part
 
 
-def _set_up(page: Any, sheet: SheetPlan) -> None:
-    """Set how a sheet scrolls and prints, and its column widths."""
+_FREE = (
+    "objects", "scenarios", "format_cells", "format_columns", "format_rows", "insert_columns",
+    "insert_rows", "insert_hyperlinks", "delete_columns", "delete_rows", "select_locked_cells",
+    "sort", "autofilter", "pivot_tables", "select_unlocked_cells",
+)  # fmt: skip
+"""What protection leaves free: everything but typing into locked cells."""
+
+
+def _set_up(page: Any, sheet: SheetPlan, unlocked: Any) -> None:
+    """Set how a sheet scrolls and prints, its protection, and its column widths."""
+    page.protect(options=dict.fromkeys(_FREE, True))
     page.hide_gridlines(2)
     if sheet.headed:
         scrolling, first, last = sheet.headed
         page.freeze_panes(f"{scrolling}{last + 1}")
         page.repeat_rows(first - 1, last - 1)
+    # Blank cells take the format of their column; the other columns follow in `_CORRECTIONS`.
+    page.set_column("A:Z", None, unlocked)
     for column, width in sheet.widths.items():
-        page.set_column(f"{column}:{column}", width)
+        page.set_column(f"{column}:{column}", width, unlocked)
     page.set_landscape()
     page.set_paper(1)  # US Letter
     page.set_margins(left=0.3, right=0.3, top=0.7, bottom=0.6)
@@ -181,8 +210,8 @@ def _set_up(page: Any, sheet: SheetPlan) -> None:
     if sheet.filtered:
         page.autofilter(sheet.filtered)
     # Excel would mark printed numbers, which are texts, and formulas that differ by design from
-    # their neighbors.
-    kinds = ("number_stored_as_text", "formula_differs", "formula_range")
+    # their neighbors, and cells that are not computed.
+    kinds = ("number_stored_as_text", "formula_differs", "formula_range", "eval_error")
     page.ignore_errors(dict.fromkeys(kinds, "A1:XFD1048576"))
 
 
@@ -227,29 +256,38 @@ _FONT = {"name": "Arial", "size": 10, "bold": False}
 _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 
 
-def _draw(book: Any, page: Any, sheet: SheetPlan, description: str) -> None:
-    """Draw the chart of a sheet on its page."""
-    chart = sheet.entry["chart"]
-    logarithmic = chart.get("logarithmic", False)
+def _draw(
+    book: Any, page: Any, name: str, chart: Chart, shown: Mapping[str, Value],
+    values: Mapping[str, Value],
+) -> None:  # fmt: skip
+    """Draw the chart of the sheet `name` on its page; `shown` is what the sheet's cells show."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
-    for curve, look in zip(sheet.curves, TABLES["curves"], strict=False):
+    for curve, look in zip(chart.curves, CURVES, strict=False):
         settings = {
             "name": f"={_absolute(*curve.name)}",
-            "categories": f"={_absolute(sheet.name, curve.x)}",
-            "values": f"={_absolute(sheet.name, curve.y)}",
-            "line": {"color": look["color"], "width": 2, "dash_type": look["dash"]},
+            "categories": f"={_absolute(name, curve.x)}",
+            "categories_data": _charted(curve.x, shown),
+            "values": f"={_absolute(name, curve.y)}",
+            "values_data": _charted(curve.y, shown),
+            "line": {"color": look.color, "width": 2, "dash_type": look.dash},
         }
-        first, last = map(int, re.findall(r"\d+", curve.x))
-        if logarithmic or last - first < 50:
+        if chart.logarithmic or len(_charted(curve.x, shown)) <= 50:
             # There are few points: mark each of them.
-            fill = {"color": look["color"]}
-            settings["marker"] = {"type": look["marker"], "size": 6, "fill": fill, "border": fill}
+            fill = {"color": look.color}
+            settings["marker"] = {"type": look.marker, "size": 6, "fill": fill, "border": fill}
         drawn.add_series(settings)
-    drawn.set_title({"name": chart["title"], "name_font": {"name": "Arial", "size": 13}})
+    drawn.set_title({"name": chart.title, "name_font": {"name": "Arial", "size": 13}})
     axis: dict[str, Any] = {"name_font": _FONT, "num_font": _FONT, "major_gridlines": _GRID}
-    axis |= {"label_position": "low"} | ({"log_base": 10} if logarithmic else {})
-    drawn.set_x_axis({"name": chart["x_title"], **axis})
-    drawn.set_y_axis({"name": chart["y_title"], **axis})
+    axis |= {"label_position": "low"} | ({"log_base": 10} if chart.logarithmic else {})
+    drawn.set_x_axis({"name": chart.x_title, **axis})
+    drawn.set_y_axis({"name": chart.y_title, **axis})
     drawn.set_legend({"position": "bottom", "font": _FONT})
-    drawn.set_size(dict(zip(("width", "height"), chart["size"], strict=True)))
-    page.insert_chart(chart["at"], drawn, {"description": description})
+    drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
+    page.insert_chart(chart.at, drawn, {"description": chart.describe(values)})
+
+
+def _charted(cells: str, shown: Mapping[str, Value]) -> list[float | None]:
+    """Return the numbers of a range in one column; None stands for a cell without a number."""
+    (column, first), (_, last) = (re.findall(r"[A-Z]+|\d+", end) for end in cells.split(":"))
+    in_cells = (shown.get(f"{column}{row}") for row in range(int(first), int(last) + 1))
+    return [value if isinstance(value, float) else None for value in in_cells]

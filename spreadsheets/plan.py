@@ -3,29 +3,29 @@
 A cell holds a text, a number that is known when the workbook is planned, or something whose value
 is supplied later under the *key* of the cell (`high.row.depth[17]`): an input, or the result of a
 formula. Whoever supplies the values never sees the formulas, so that the two can be compared.
+
+A quantity has a defined name, and its key is that name: formulas read `=4*rho_p/(3*rho_t)*ln_rest`.
 """
 
 import re
-import tomllib
-from collections.abc import Callable, Iterator, Mapping, Sequence, Set
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from pathlib import Path
 from string import ascii_uppercase
 from textwrap import wrap
 from typing import Any, Literal, NamedTuple
 
-from reference.ledger import Ledger
+from reference.ledger import Ledger, load
 from reference.units import written
 
 NOT_COMPUTED = "not computed"
-"""What a formula gives if it depends on an input that cannot be used."""
+"""What a verdict says if it depends on an input that cannot be used."""
+
+NOT_AVAILABLE = "#N/A"
+"""The value of a cell that depends on an input that cannot be used, or on rows that are missing."""
 
 HOME = "Overview"
 """The first sheet; every other sheet has a link back to it."""
-
-FIRST_ROW = 10
-"""The row of a case's sheet that holds row 0 of the scheme, the impact itself."""
 
 Value = float | str | bool
 """What a cell shows. A number is a float; a formula that leaves its cell blank gives ""."""
@@ -37,12 +37,12 @@ Place = tuple[str, str]
 class Cell(NamedTuple):
     """One cell: a `text`, a `number`, an input (a `key` alone), or a `formula` with a key.
 
-    shown: number format. name: defined name, by which formulas refer to the cell. unit: of the
-    value, spelled as in the ledger. claim: id of the claim whose printed text, or number, the cell
-    shows. like: name of a set of cells with values of like size; the largest of them limits the
-    rounding error of each. link: the place that a click on the text leads to. limits, choices: what
-    may be typed, from the least to the greatest number in the cell's unit, or one of these texts.
-    wrap: whether a long text takes two lines.
+    shown: number format. named: whether the key is also a defined name, by which formulas refer to
+    the cell. unit: of the value, spelled as in the ledger. claim: id of the claim whose printed
+    text, or number, the cell shows. like: name of a set of cells with values of like size; the
+    largest of them limits the rounding error of each. link: the place that a click on the text
+    leads to. limits, choices: what may be typed, from the least to the greatest number in the
+    cell's unit, or one of these texts. wrap: whether a long text takes two lines.
     """
 
     text: str = ""
@@ -51,7 +51,7 @@ class Cell(NamedTuple):
     key: str = ""
     formula: str = ""
     shown: str = "General"
-    name: str = ""
+    named: bool = False
     unit: str = "1"
     claim: str = ""
     like: str = ""
@@ -110,82 +110,64 @@ class Curve(NamedTuple):
     y: str
 
 
-TABLES: Mapping[str, Any] = tomllib.loads(
-    Path(__file__).with_name("sheets.toml").read_text(encoding="utf-8")
-)
-"""The tables of `sheets.toml`."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chart:
+    """The chart of a sheet, with its upper left corner in the cell `at` and its size in pixels.
 
-MESSAGES: Mapping[str, str] = TABLES["messages"]
-"""The messages of the workbook about its inputs and runs, by short names."""
-
-
-def filled(text: str, words: Mapping[str, object]) -> str:
-    """Replace the braces in a text of `sheets.toml` by functions, messages and the given words.
-
-    >>> filled("={rest_depth:{c}}", {"c": "B7"})[:18]
-    '=IF(B7<=2/3,4*SIN('
+    describe: says in words, from the values by key, what the chart shows as written.
     """
 
-    def called(match: re.Match[str]) -> str:
-        return re.sub(r"\bx\b", match[2], TABLES["functions"][match[1]])
+    at: str
+    title: str
+    x_title: str
+    y_title: str
+    size: tuple[int, int]
+    curves: Sequence[Curve]
+    describe: Callable[[Mapping[str, Value]], str]
+    logarithmic: bool = False
 
-    text = re.sub(r"\{(\w+):((?:\w|\{\w+\})+)\}", called, text)
-    return text.format_map({**MESSAGES, "none": NOT_COMPUTED, **words})
 
-
-def filled_in(entry: Mapping[str, Any], words: Mapping[str, object]) -> dict[str, Any]:
-    """Return an entry of `sheets.toml` with all its texts `filled`."""
-    return {
-        key: filled(value, words) if isinstance(value, str) else value
-        for key, value in entry.items()
-    }
+LINE_HEADS = (
+    ("Symbol", 9), ("Quantity", 44), ("Value", 14), ("Unit", 8), ("The report prints", 20),
+    ("Equation or place", 46),
+)  # fmt: skip
+"""The heads and column widths of a table with one quantity in each line."""
 
 
 @dataclass(slots=True, kw_only=True)
 class SheetPlan:
     """One sheet: its cells by address, column widths in characters, and how it scrolls and prints.
 
-    row: where the next cells go. entry: the table of the sheet in `sheets.toml`. headed: the first
-    column that scrolls, and the first and last row of heads; heads do not scroll, and are repeated
-    on every printed page. page_break: the last row of page 1. filtered: the cells of a table that
-    has a filter. curves: those of the sheet's chart. written: what the chart shows, in words that
-    refer to values by key: "{high.depth_um:.4g}".
+    about: what the sheet shows, for `Overview`. row: where the next cells go. columns: those of
+    symbol, meaning, value, unit, printed text and source in a `line`. headed: the first column that
+    scrolls, and the first and last row of heads; heads do not scroll, and are repeated on every
+    printed page. page_break: the last row of page 1. filtered: the cells of a table that has a
+    filter. claims: the address of the cell that computes a claim, by the claim's id.
     """
 
     name: str
+    about: str = ""
+    ledger: Ledger = field(default_factory=load)
     cells: dict[str, Cell] = field(default_factory=dict)
-    widths: Mapping[str, float] = field(default_factory=dict)
+    widths: dict[str, float] = field(default_factory=dict)
     row: int = 1
-    entry: Mapping[str, Any] = field(default_factory=dict)
+    columns: str = "ABCDEF"
     headed: tuple[str, int, int] | None = None
     rules: list[Rule] = field(default_factory=list)
-    curves: Sequence[Curve] = ()
-    written: str = ""
+    chart: Chart | None = None
     print_area: str = ""
     page_break: int | None = None
     filtered: str = ""
+    claims: dict[str, str] = field(default_factory=dict)
 
-    @classmethod
-    def begun(cls, kind: str, name: str = "", **words: object) -> "SheetPlan":
-        """Begin a sheet with what `sheets.toml` has under `pages`: title, link home and notes."""
-        entry = TABLES["pages"][kind]
-        widths = {c: width for letters, width in entry.get("widths", {}).items() for c in letters}
-        page = cls(
-            name=name or kind, entry=entry, widths=widths,
-            print_area=entry.get("print_area", ""), page_break=entry.get("page_break"),
-        )  # fmt: skip
-        if "title" in entry:
-            page.put(A=Cell(entry["title"], "title"))
-            page.put(A=Cell(f"Back to {HOME}", "link", link=(HOME, "A1")))
-        page.row = entry.get("at", page.row)
-        for note in entry.get("notes", ()):
-            page.say(filled(note, words), width=entry.get("width", 165))
-        return page
+    def begin(self, title: str) -> None:
+        """Add the title of the sheet and the link back to `Overview`."""
+        self.put(A=Cell(title, "title"))
+        self.put(A=Cell(f"Back to {HOME}", "link", link=(HOME, "A1")))
 
-    def single_cells(self, **words: object) -> None:
-        """Add the single cells of the sheet's entry, filled with these words."""
-        for address, cell in self.entry["cells"].items():
-            self.cells[address] = Cell(**filled_in(cell, words))
+    def wide(self, columns: str, width: float) -> None:
+        """Set the width, in characters, of the columns with these letters."""
+        self.widths |= dict.fromkeys(columns, width)
 
     def put(self, **cells: Cell | Literal[""] | None) -> None:
         """Add a row of cells, given by column; those that are None or "" are left out."""
@@ -197,40 +179,6 @@ class SheetPlan:
         for line in wrap(words, width, break_on_hyphens=False):
             self.put(A=Cell(line, style))
 
-    def grid(
-        self, columns: Mapping[str, Mapping[str, Any]], part: str, words: Mapping[str, object],
-        count: int, finish: Callable[[str], str] = str,
-    ) -> None:  # fmt: skip
-        """Add columns of `sheets.toml`, given by letter: heads, units and `count` cells each.
-
-        part: what the keys begin with. They end with the number of the cell in its column, from 0:
-        "high.row.depth[1]". finish: is applied to every formula.
-        """
-        letters = "".join(columns)
-        self.heads(letters, [entry["head"] for entry in columns.values()], letters)
-        first = self.row + 1
-        self.row = first + count
-        for column, entry in columns.items():
-            unit = entry.get("under", written(entry.get("unit", "1")) or None)
-            if unit is not None:
-                self.cells[f"{column}{first - 1}"] = Cell(unit, "unit right")
-            looks = ("unit", "shown", "like")
-            look = filled_in({name: entry[name] for name in looks if name in entry}, words)
-            start_look = {**look, "shown": entry.get("start_shown", "General")}
-            formulas = dict(row_formulas(entry, {**words, "column": column}, first, count))
-            for k in range(count):
-                key = f"{part}.{entry['key']}[{k}]" if "key" in entry else ""
-                if k in formulas:
-                    at_start = k == 0 and "start" in entry
-                    cell = formula(key, finish(formulas[k]), **(start_look if at_start else look))
-                elif not key:
-                    cell = Cell(number=float(k), style="number")
-                elif not formulas:
-                    cell = recorded(key, **look)
-                else:
-                    continue
-                self.cells[f"{column}{first + k}"] = cell
-
     def heads(self, columns: str, heads: Sequence[str], right: str) -> None:
         """Add a row of column heads; `right` lists the columns of numbers."""
         for column, head in zip(columns, heads, strict=True):
@@ -238,64 +186,84 @@ class SheetPlan:
             self.cells[f"{column}{self.row}"] = Cell(head, style)
         self.row += 1
 
-    def table(self, right: str, scrolling: str) -> None:
-        """Begin the table whose heads and widths the sheet's entry lists.
+    def table(self, heads: Sequence[tuple[str, float]], right: str, scrolling: str) -> None:
+        """Begin a table in columns A, B, C, ... with these heads and widths.
 
         right: the columns of numbers. scrolling: the first column that scrolls.
         """
-        columns = ascii_uppercase[: len(self.entry["heads"])]
-        heads, widths = zip(*self.entry["heads"], strict=True)
-        self.widths = dict(zip(columns, widths, strict=True))
+        columns = ascii_uppercase[: len(heads)]
+        texts, widths = zip(*heads, strict=True)
+        self.widths |= dict(zip(columns, widths, strict=True))
         self.headed = scrolling, self.row, self.row
-        self.heads(columns, heads, right)
+        self.heads(columns, texts, right)
 
-    def description(self, values: Mapping[str, Value]) -> str:
-        """Describe the sheet's chart in words, with these values."""
-        written = re.sub("{(.+?):(.+?)}", lambda at: format(values[at[1]], at[2]), self.written)
-        return str(self.entry["chart"]["description"]).format(written=written)
+    def column(self, letter: str, head: str, unit: str, cells: Sequence[Cell | None]) -> None:
+        """Add a column from the current row on: its head, its unit or the text "", its cells.
 
-    def lines(
-        self, ledger: Ledger, part: str, blocks: Mapping[str, Any],
-        cases: Sequence[Mapping[str, object]], columns: str = "ABCDEF", headed: bool = True,
-    ) -> None:  # fmt: skip
-        """Add blocks of `sheets.toml`, one line for each quantity; that file explains its entries.
-
-        part: what the keys begin with. cases: the words of each case. columns: for symbol, meaning,
-        value, unit, printed text and source. headed: whether columns and blocks have heads.
+        The current row stays as it is, so that another column can be added beside this one.
         """
-        if headed:
-            self.heads(columns, [head for head, _ in TABLES["lines"]], columns[2] + columns[4])
-        addresses: dict[str, str] = {}
-        for number, (head, block) in enumerate(blocks.items()):
-            if headed:
-                self.row += number > 0
-                self.put(**{columns[0]: Cell(head, "block")})
-            # A line whose key has no word of a case is the same for all cases, and stands once.
-            lines = {
-                key.format_map(words): (line, words)
-                for words in cases
-                for key, line in block.items()
-            }
-            for key, (line, words) in lines.items():
-                entry = {"shown": "0.0000", **filled_in(line, {**words, **addresses})}
-                symbol, meaning, source, claim = (
-                    entry.pop(name, "") for name in ("symbol", "meaning", "source", "claim")
-                )
-                expression = entry.pop("formula")
-                if entry.pop("guard", True):
-                    expression = guarded(expression)
-                value = formula(f"{part}.{key}", expression, **entry)
-                addresses[key.rpartition(".")[2]] = f"{columns[2]}{self.row}"
-                place = source or (str(ledger.claims[claim].place) if claim else "")
-                cells = (
-                    symbol and Cell(symbol, "text"),
-                    meaning and Cell(meaning),
-                    value,
-                    unit_text(value.unit),
-                    claim and printed(ledger, claim, value.unit),
-                    place and Cell(place, "unit"),
-                )
-                self.put(**dict(zip(columns, cells, strict=True)))
+        self.cells[f"{letter}{self.row}"] = Cell(head, "head" if letter == "A" else "head right")
+        if unit:
+            text = unit if unit == "–" else written(unit)
+            self.cells[f"{letter}{self.row + 1}"] = Cell(text, "unit right")
+        for row, cell in enumerate(cells, start=self.row + 2):
+            if cell:
+                self.cells[f"{letter}{row}"] = cell
+
+    def block(self, head: str) -> None:
+        """Add the head of a block of lines."""
+        self.put(**{self.columns[0]: Cell(head, "block")})
+
+    def line(
+        self, name: str, symbol: str, meaning: str, expression: str, unit: str = "1", *,
+        claim: str = "", also: Sequence[str] = (), beside: str = "", source: str = "",
+        shown: str = "0.0000", like: str = "",
+    ) -> None:  # fmt: skip
+        """Add a line for one quantity, computed by a formula in the cell that gets this name.
+
+        claim: the claim that the cell computes; its printed text stands beside it, and its place in
+        the report if no other `source` is given. also: other claims that the cell computes. beside:
+        the claim whose printed text stands beside the cell though another cell computes it.
+        """
+        computed = [claim, *also] if claim else also
+        self.claims |= dict.fromkeys(computed, f"{self.columns[2]}{self.row}")
+        value = formula(name, expression, named=True, unit=unit, shown=shown, like=like)
+        self._line(symbol, meaning, value, claim or beside, source)
+
+    def repeat(
+        self, key: str, symbol: str, meaning: str, name: str, unit: str = "1", *,
+        beside: str = "", source: str = "", shown: str = "0.0000",
+    ) -> None:  # fmt: skip
+        """Add a line that repeats the quantity with this name, in a cell without a name."""
+        value = formula(key, f"={name}", unit=unit, shown=shown)
+        self._line(symbol, meaning, value, beside, source)
+
+    def _line(self, symbol: str, meaning: str, value: Cell, claim: str, source: str) -> None:
+        """Add a line; `claim` is the one whose printed text stands beside the value."""
+        if claim and not source:
+            source = str(self.ledger.claims[claim].place)
+        cells = (
+            symbol and Cell(symbol, "text"),
+            meaning and Cell(meaning),
+            value,
+            unit_text(value.unit),
+            claim and printed(self.ledger, claim, value.unit),
+            source and Cell(source, "unit"),
+        )
+        self.put(**dict(zip(self.columns, cells, strict=True)))
+
+    def line_heads(self) -> None:
+        """Add the heads of a table of lines."""
+        texts = [head for head, _ in LINE_HEADS]
+        self.heads(self.columns, texts, right=self.columns[2] + self.columns[4])
+
+
+_REFERENCE = re.compile(
+    r"""(?:'(?P<sheet>[^']*)'!)?\$?(?P<column>[A-Z])\$?(?P<first>\d+)(?::[A-Z](?P<last>\d+))?\b
+    |(?P<name>[A-Za-z]\w*)\b(?!\()""",
+    re.VERBOSE,
+)
+"""A cell or a range of one column, or a defined name, in a formula of a plan."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -320,76 +288,39 @@ class WorkbookPlan:
         return {cell.key: place for place, cell in self.cells.items() if cell.key}
 
     @cached_property
-    def inexact(self) -> Set[Place]:
-        """The cells whose value depends on LN, SIN, ASIN, a cube root or ROUND.
+    def claims(self) -> Mapping[str, Place]:
+        """The place of the cell that computes a claim, by the claim's id."""
+        return {
+            claim: (sheet.name, address)
+            for sheet in self.sheets
+            for claim, address in sheet.claims.items()
+        }
 
-        Their last digits depend on the program; all other values are the same double everywhere.
-        """
-        from openpyxl.utils.cell import coordinate_to_tuple
+    def references(self, place: Place) -> Iterator[Place]:
+        """Yield the cells that the formula of a cell refers to: by address, range or name."""
+        own_sheet, text = place[0], re.sub(r'"[^"]*"', "", self.cells[place].formula)
+        for match in _REFERENCE.finditer(text):
+            if match["name"]:
+                yield self.where[match["name"]]
+            else:
+                first = int(match["first"])
+                for row in range(first, int(match["last"] or first) + 1):
+                    yield match["sheet"] or own_sheet, f"{match['column']}{row}"
 
-        from spreadsheets import engines, foreign
-        from spreadsheets.recalculation import Calculation, parse
+    @cached_property
+    def readers(self) -> Mapping[Place, Sequence[Place]]:
+        """The cells whose formulas refer to a cell, by its place."""
+        readers: dict[Place, list[Place]] = {}
+        for place, cell in self.cells.items():
+            for reference in self.references(place) if cell.formula else ():
+                readers.setdefault(reference, []).append(place)
+        return readers
 
-        sheets: dict[str, dict[tuple[int, int], foreign.Cell]] = {}
-        for (sheet, address), cell in self.cells.items():
-            position = coordinate_to_tuple(address)
-            sheets.setdefault(sheet, {})[position] = foreign.Cell(cell.formula or None, None)
-        names = {cell.name: "'{}'!{}".format(*at) for at, cell in self.cells.items() if cell.name}
-        book = foreign.Book(Path(), sheets, names)
-        texts = {position: cell.formula for position, cell in book.cells() if cell.formula}
-        formulas = {position: parse(text, position, book) for position, text in texts.items()}
-        sources = {at for at, text in texts.items() if re.search(r"LN\(|SIN\(|\^|ROUND\(", text)}
-        inexact = Calculation(book, formulas, {}).needing(sources)
-        return {(sheet, engines.address(row, column)) for sheet, row, column in inexact}
-
-
-def place_of(text: str) -> Place:
-    """Return the place that a text names as a formula does, but without quotes.
-
-    >>> place_of("Table A-1!B3")
-    ('Table A-1', 'B3')
-    """
-    sheet, _, address = text.rpartition("!")
-    return sheet, address
-
-
-def row_formulas(
-    entry: Mapping[str, str], words: Mapping[str, object], first: int, count: int
-) -> Iterator[tuple[int, str]]:
-    """Yield the formulas of `count` cells of a column of `sheets.toml`, with their numbers from 0.
-
-    An entry has one formula for all cells (`each`); or one for the first cell, in row `first` of
-    the sheet (`start`), one for the second (`first`, if it is special), and one for all others
-    (`then`). A formula that does not begin with "=" is left blank where column A has no number; to
-    compare column A with "" instead fails in two spreadsheet programs.
-    """
-    then = entry.get("then")
-    kinds = entry.get("start"), entry.get("first", then), then
-    for k in range(count):
-        if expression := entry.get("each") or kinds[min(k, 2)]:
-            if expression[0] != "=":
-                expression = f'=IF(ISNUMBER(A{{row}}),{expression},"")'
-            rows = {"row": first + k, "above": first + k - 1, "case_row": FIRST_ROW + k}
-            yield k, filled(expression, {**words, **rows})
-
-
-_REFERENCE = re.compile(
-    r"""(?P<skip>"[^"]*"|(?:'[^']*'!)?\$?[A-Z]{1,2}\$?\d+:\$?[A-Z]{1,2}\$?\d+|[A-Za-z]\w*\()
-    |(?P<cell>(?:'[^']*'!)?\$?\b[A-Z]{1,2}\$?\d+\b|\b[A-Za-z]\w*\b)""",
-    re.VERBOSE,
-)
-
-
-def guarded(expression: str) -> str:
-    """Return a formula that is computed only if all cells that it refers to hold numbers.
-
-    Otherwise it gives "not computed". A formula that only repeats a cell is returned unchanged.
-
-    >>> guarded("=2*R_p"), guarded("=R_p")
-    ('=IF(COUNT(R_p)=1,2*R_p,"not computed")', '=R_p')
-    """
-    cells = [match["cell"] for match in _REFERENCE.finditer(expression)]
-    names = list(dict.fromkeys(filter(None, cells)))
-    if not names or expression == f"={names[0]}":
-        return expression
-    return f'=IF(COUNT({",".join(names)})={len(names)},{expression[1:]},"{NOT_COMPUTED}")'
+    def dependents(self, sources: Collection[Place]) -> set[Place]:
+        """Return these cells, and all whose formulas depend on one of them, however indirectly."""
+        reached, waiting = set(sources), list(sources)
+        while waiting:
+            new = set(self.readers.get(waiting.pop(), ())) - reached
+            reached |= new
+            waiting += new
+        return reached

@@ -1,0 +1,148 @@
+"""The sheet `Audit`: every claim of the ledger, with a live verdict if a cell computes it."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+from reference.ledger import Claim, Ledger
+from spreadsheets.plan import (
+    NOT_COMPUTED,
+    Cell,
+    Place,
+    Rule,
+    SheetPlan,
+    formula,
+    printed,
+    recorded,
+    unit_text,
+)
+
+AS_PRINTED, OTHERWISE = "as printed", "not as printed"
+LIVE_VERDICTS = {
+    AS_PRINTED: "audit_as_printed",
+    OTHERWISE: "audit_otherwise",
+    NOT_COMPUTED: "audit_none",
+}
+"""Each live verdict, and the name of the cell that counts it."""
+
+
+@dataclass(frozen=True, slots=True)
+class AuditResult:
+    """What the workbook shows of a finished audit, as texts and numbers.
+
+    counts: number of entries by verdict. verdicts, explanations: by claim. failing: claims that do
+    not follow from what the report says. differing: claims that public sources contradict.
+    """
+
+    headline: str
+    counts: Mapping[str, int]
+    verdicts: Mapping[str, str]
+    explanations: Mapping[str, str]
+    failing: Sequence[str]
+    differing: Sequence[str]
+
+
+_HEAD_ROW = 11
+_HEADS = (
+    ("Claim", 24), ("What", 50), ("Printed", 15), ("Unit", 8), ("Computed", 13),
+    ("Live verdict", 14), ("The audit’s verdict", 25), ("From", 11), ("To", 11), ("Where", 34),
+    ("Computed in", 20), ("Explanation", 60),
+)  # fmt: skip
+
+
+def row_of(ledger: Ledger, claim: str) -> int:
+    """Return the row in which the sheet lists a claim."""
+    return _HEAD_ROW + 1 + list(ledger.claims).index(claim)
+
+
+def verdict_colors(cells: str) -> list[Rule]:
+    """Return the rules that color the live verdicts in these cells of one column."""
+    first = cells.partition(":")[0]
+    styles = {AS_PRINTED: "good", OTHERWISE: "warning", NOT_COMPUTED: "changed"}
+    return [Rule(cells, f'=${first}="{words}"', style) for words, style in styles.items()]
+
+
+def audit_sheet(
+    ledger: Ledger, audited: AuditResult, computed_in: Mapping[str, Place]
+) -> SheetPlan:
+    """Plan the sheet of all claims; `computed_in` is the cell that computes a claim, by its id."""
+    about = "Every printed number: what prints like it, computed value, verdict, its cell"
+    sheet = SheetPlan(ledger=ledger, name="Audit", about=about)
+    last = _HEAD_ROW + len(ledger.claims)
+    verdicts = f"F{_HEAD_ROW + 1}:F{last}"
+    sheet.begin("Audit: every number that the report prints")
+    sheet.say(
+        "Live verdict: whether the computed cell, with the inputs in use, rounds to what the report"
+        " prints, or keeps to its bound; From and To are the values that do. The audit’s verdict is"
+        " about the report: it does not follow the inputs, and its proof is printed by coldspray"
+        " claims ID.",
+        width=150,
+    )
+    sheet.print_area, sheet.filtered = f"A1:I{last}", f"A{_HEAD_ROW}:L{last}"
+    sheet.row = 6
+    sheet.block("Live verdicts")
+    for verdict, name in LIVE_VERDICTS.items():
+        count = formula(name, f'=COUNTIF({verdicts},"{verdict}")', "message", named=True)
+        sheet.put(A=Cell(verdict, "text"), B=count)
+    sheet.row = _HEAD_ROW
+    sheet.table(_HEADS, right="CEHI", scrolling="B")
+    for claim in ledger.claims.values():
+        cells = _claim_row(ledger, claim, audited)
+        if claim.id in computed_in:
+            cells |= _live(claim, computed_in[claim.id], sheet.row)
+        sheet.put(**cells)
+    sheet.rules = verdict_colors(verdicts)
+    return sheet
+
+
+def _claim_row(ledger: Ledger, claim: Claim, audited: AuditResult) -> dict[str, Cell]:
+    """Return a claim's row without what is live."""
+    return {
+        "A": Cell(claim.id),
+        "B": Cell(claim.title, wrap=True),
+        "C": printed(ledger, claim.id, claim.unit, wrap=True),
+        "D": unit_text(claim.unit),
+        "F": Cell("–", "text"),
+        "G": Cell(audited.verdicts[claim.id], "text", wrap=True),
+        "J": Cell(str(claim.place), "unit"),
+        "L": Cell(audited.explanations[claim.id], "unit"),
+    }
+
+
+def _live(claim: Claim, place: Place, row: int) -> dict[str, Cell]:
+    """Return the value of the cell that computes a claim, the printed interval and the verdict."""
+    # Fixed decimals for most numbers, powers of ten for those that would be long.
+    size = 0 if claim.printed is None else abs(claim.printed.value)
+    shown = "0.0000E+00" if claim.place.cell or size >= 10**5 else "0.0000"
+    key, interval, (sheet, address) = f"audit.{claim.id}", claim.interval(), place
+    ends = {
+        column: recorded(float(end), shown=shown, claim=claim.id)
+        for column, end in (("H", interval.lower), ("I", interval.upper))
+        if end is not None
+    }
+    computed = f"='{sheet}'!{address}"
+    return {
+        "E": formula(f"{key}.computed", computed, shown=shown, unit=claim.unit),
+        "F": formula(f"{key}.verdict", _live_verdict(claim, row), "text"),
+        "K": Cell(f"{sheet}!{address}", "link", link=place),
+        **ends,
+    }
+
+
+def _live_verdict(claim: Claim, row: int) -> str:
+    """Return the live verdict: whether E lies between H and I, which are open or closed ends.
+
+    A blank cell of Table A-1 is greater than any number, so that the verdict asks ISNUMBER.
+    """
+    interval, verdict = claim.interval(), f'"{AS_PRINTED}"'
+    if interval.is_point:
+        # To nine digits, since no double is 2/3 and programs round it differently.
+        same = f"ABS(E{row}-H{row})*1000000000<=ABS(H{row})"
+        verdict = f'IF({same},{verdict},"{OTHERWISE}")'
+    else:
+        if interval.upper is not None:
+            below = "<=" if interval.upper_closed else "<"
+            verdict = f'IF(E{row}{below}I{row},{verdict},"{OTHERWISE}")'
+        if interval.lower is not None:
+            above = ">=" if interval.lower_closed else ">"
+            verdict = f'IF(E{row}{above}H{row},{verdict},"{OTHERWISE}")'
+    return f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'

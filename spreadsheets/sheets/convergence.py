@@ -1,0 +1,138 @@
+"""The sheet `Convergence`: errors of the final depth at eight time steps, computed when written."""
+
+from collections.abc import Mapping, Sequence
+
+from reference.ledger import Ledger
+from spreadsheets.plan import Cell, Chart, Curve, Rule, SheetPlan, Value, formula, recorded
+from spreadsheets.sheets import messages
+from spreadsheets.sheets.case import CaseSheet
+from spreadsheets.sheets.inputs import inputs_of
+
+LEVELS = 8
+"""Number of time steps, each half of the one before; the fifth is dt_s as written."""
+
+NO_ORDER = "–"
+"""Stands for an order that is undefined."""
+
+
+def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
+    """Return the names of all numbers on which the runs depend: inputs, derived numbers and π."""
+    blocks = inputs_of(cases, report=False).values()
+    typed = [entry.name for block in blocks for entry in block if entry.attribute]
+    return list(dict.fromkeys([*typed, "D_p", "M_p", "pi_", *(case.resistance for case in cases)]))
+
+
+def convergence(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
+    """Plan the errors of the final depth at eight time steps, and the inputs of these runs."""
+    about = "Final depth at eight time steps against the depth at rest, with its chart"
+    sheet = SheetPlan(ledger=ledger, name="Convergence", about=about, page_break=34)
+    sheet.begin("Convergence with the time step")
+    sheet.wide("ABCDEFGIJK", 12)
+    sheet.wide("H", 42)
+    sheet.row = 4
+    sheet.say(
+        "Gray: computed when the workbook was written, and not live: each line is a whole sheet"
+        f" with that time step ({cases[0].scheme} scheme), whose state is shown as on the sheet of"
+        " the case. Error: final depth minus depth at rest. Black: live. Order: how the error falls"
+        " from line to line, 1 for a scheme of first order; after a run of fewer than two steps"
+        " there is none. coldspray converge shows more of each run.",
+        width=160,
+    )
+    sheet.row = 8
+    same = _inputs_of_runs(sheet, cases)
+    message = f'=IF(MIN({same})=1,"{messages.CURRENT}","{messages.STALE}")'
+    sheet.cells["A3"] = formula("convergence.message", message, "message")
+    sheet.rules = [Rule("A3", f'=$A$3="{messages.STALE}"', "warning")]
+    sheet.row, curves = 36, []
+    for case in cases:
+        # The label is a text, not a formula: it names the case as it was when the runs were made.
+        label = f"A{sheet.row}"
+        sheet.put(A=Cell(f"{case.name}, {case.label}", "block"))
+        first = sheet.row + 2
+        _levels(sheet, case, first)
+        last = first + LEVELS - 1
+        curves.append(Curve((sheet.name, label), f"B{first}:B{last}", f"F{first}:F{last}"))
+        sheet.row = last + 1
+        at_rest = recorded(f"convergence.{case.slug}.rest_um", shown="0.000000")
+        sheet.put(A=Cell("At rest, without steps"), D=at_rest)
+        sheet.row += 1
+    sheet.print_area = f"A1:K{sheet.row - 2}"
+    sheet.chart = _chart(cases, curves)
+    return sheet
+
+
+def _inputs_of_runs(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> str:
+    """Add the inputs of the runs beside those in use, and return the cells that compare them."""
+    sheet.heads("HIJK", ("Input", "Of these runs", "In use", ""), "IJ")
+    first, shown = sheet.row, "0.0####E+00"
+    for name in run_inputs(cases):
+        row = sheet.row
+        # To twelve digits, since programs differ in how they round a conversion of units.
+        same = f"=IFERROR(IF(ABS(I{row}-J{row})*1000000000000<=ABS(I{row}),1,0),0)"
+        sheet.put(
+            H=Cell(name, "text"),
+            I=recorded(f"convergence.run.{name}", shown=shown),
+            J=formula(f"convergence.in_use.{name}", f"={name}", shown=shown),
+            K=formula(f"convergence.same.{name}", same, "text", shown='"same";;"other"'),
+        )
+    return f"K{first}:K{sheet.row - 1}"
+
+
+def _levels(sheet: SheetPlan, case: CaseSheet, first: int) -> None:
+    """Add the runs of a case from the row `first` on, one in each line.
+
+    Everything but the order and the step in ns was computed when the workbook was written. That
+    includes the error, which is small compared with the depths: a program that computes in long
+    doubles would round their difference in another way.
+    """
+    part, rows = f"convergence.{case.slug}", range(first, first + LEVELS)
+
+    def column(letter: str, head: str, unit: str, key: str, shown: str = "General") -> None:
+        cells = [recorded(f"{part}.{key}[{k}]", shown=shown) for k in range(LEVELS)]
+        sheet.column(letter, head, unit, cells)
+
+    column("A", "Time step", "s", "step", "0.00E+00")
+    in_ns = [
+        formula(f"{part}.step_ns[{k}]", f"=A{row}*1000000000", shown="0.0000")
+        for k, row in enumerate(rows)
+    ]
+    sheet.column("B", "Time step", "ns", in_ns)
+    column("C", "Steps", "", "steps", "0")
+    column("D", "Final depth", "um", "depth_um", "0.000000")
+    column("E", "Error", "um", "error", "0.000000")
+    column("F", "|Error|", "um", "size", "0.0E+00")
+    orders: list[Cell | None] = [None]
+    for k, row in enumerate(rows[1:], start=1):
+        order = f"LN(E{row - 1}/E{row})/LN(A{row - 1}/A{row})"
+        live = f'=IFERROR(IF(C{row - 1}>1,{order},"{NO_ORDER}"),"{NO_ORDER}")'
+        orders.append(formula(f"{part}.order[{k}]", live, shown="0.00"))
+    sheet.column("G", "Order", "–", orders)
+    column("H", "State of the run", "", "state")
+
+
+def _chart(cases: Sequence[CaseSheet], curves: Sequence[Curve]) -> Chart:
+    def describe(values: Mapping[str, Value]) -> str:
+        ends = []
+        for case in cases:
+            part = f"convergence.{case.slug}"
+            first, last = (
+                f"{values[f'{part}.size[{k}]']:.2g} µm at {values[f'{part}.step_ns[{k}]']:.3g} ns"
+                for k in (0, LEVELS - 1)
+            )
+            ends.append(f"{case.label} from {first} to {last}")
+        return (
+            "Line chart with logarithmic axes: size of the error of the final depth in µm against"
+            " the time step in ns, the first case solid, the second dashed."
+            f" For {', '.join(ends)}."
+        )
+
+    return Chart(
+        at="A8",
+        title="Error of the final depth against the time step",
+        x_title="Time step [ns]",
+        y_title="|final depth - depth at rest| [µm]",
+        size=(610, 430),
+        curves=curves,
+        describe=describe,
+        logarithmic=True,
+    )

@@ -1,0 +1,308 @@
+"""The sheet `Inputs`: every physical number, typed into a yellow cell in the report's unit.
+
+Beside each stand the value in use in SI units, the report's value, and the limits within which a
+number is accepted. A number that cannot be used makes its cell in use #N/A, and so all that hangs
+on it.
+"""
+
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
+
+from reference.ledger import INFERRED, Ledger
+from reference.units import to_si
+from spreadsheets.plan import Cell, Rule, SheetPlan, formula, printed, recorded, unit_text
+from spreadsheets.sheets import messages
+from spreadsheets.sheets.case import CaseSheet
+
+_LIMITS: Mapping[str, tuple[float, float]] = {
+    "m/s": (1e-6, 1e6),
+    "um": (1e-4, 1e6),
+    "ns": (1e-6, 1e6),
+    "kg/m^3": (25.0, 1e5),
+    "Pa": (1e5, 1e15),
+    "MPa": (1e-3, 1e6),
+    "GPa": (1e-4, 1e5),
+    "ksi": (1e-3, 1e5),
+    "1": (1e-4, 1e4),
+}
+"""What may be typed, by unit. The limits admit any impact, but not a number in SI units where the
+sheet asks for another unit (2E-10 for 0.2 ns, 7E8 for 700 MPa), or 8.9 for 8900 kg/m³."""
+
+_UP_TO_HALF_A_SPHERE = (1e-4, 0.5)
+
+
+class Input(NamedTuple):
+    """A number to be typed in: its defined name, symbol, unit, and what it is.
+
+    source: the claim that prints it, or an inferred input. attribute: the attribute of an impact
+    that it gives, if it belongs to a case. own_limits: if they are not those of the unit.
+    """
+
+    name: str
+    symbol: str
+    source: str
+    unit: str = "1"
+    meaning: str = ""
+    attribute: str = ""
+    own_limits: tuple[float, float] | None = None
+
+    @property
+    def limits(self) -> tuple[float, float]:
+        """The least and the greatest number that may be typed."""
+        return self.own_limits or _LIMITS[self.unit]
+
+    def of_report(self, ledger: Ledger) -> float:
+        """Return the report's number in this unit."""
+        return float(ledger.value(self.source) / to_si(self.unit))
+
+
+def unit_in_use(unit: str) -> str:
+    """Return the SI unit of an input that is typed in this unit."""
+    return {"um": "m", "ns": "s", "MPa": "Pa", "GPa": "Pa", "ksi": "Pa"}.get(unit, unit)
+
+
+def in_si(expression: str, unit: str) -> str:
+    """Return the expression of a typed number in SI units.
+
+    Division by a power of ten rounds once; multiplication by 1E-6 would round twice.
+
+    >>> in_si("C12", "um"), in_si("C12", "m/s")
+    ('C12/1000000', 'C12')
+    """
+    match unit:
+        case "um":
+            return f"{expression}/1000000"
+        case "ns":
+            return f"{expression}/1000000000"
+        case "MPa":
+            return f"{expression}*1000000"
+        case "GPa":
+            return f"{expression}*1000000000"
+        case "ksi":
+            return f"{expression}*ksi_Pa"
+        case _:
+            return expression
+
+
+def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]]:
+    """Return the inputs of a workbook of these cases, by block.
+
+    report: whether it is the report's own workbook.
+    """
+    stop_limits = (0.0, 1e6)
+    impact = [
+        Input("V_impact", "V", "a1-initial-velocity", "m/s", attribute="velocity"),
+        Input("R_p", "R", "a1-radius", "um", attribute="radius"),
+        Input("rho_p", "ρ_p", "a1-density", "kg/m^3", attribute="particle_density"),
+        Input("rho_t", "ρ_t", f"{INFERRED}target-density", "kg/m^3", attribute="target_density"),
+        Input("dt_s", "Δt", "a-step", "ns", attribute="step"),
+        Input(
+            "v_stop", "v_stop", "a-stop-velocity", "m/s", attribute="stop_velocity",
+            own_limits=stop_limits,
+        ),
+    ]  # fmt: skip
+    if report:
+        impact.append(Input("dt_coarse", "Δt", "coarse-step", "ns"))
+    given = "target resistance, given instead of β and Y_t"
+    resistance = [Input("R_t", "R_t", "a1-resistance", "Pa", given, attribute="resistance")]
+    if not cases[0].resistance_given:
+        over = "target resistance over flow stress"
+        resistance = [
+            Input("Y_t", "Y_t", "flow-stress", "MPa", attribute="flow_stress"),
+            *(
+                Input(
+                    f"beta{case.input_suffix}", "β", f"depth-beta-{case.beta}-beta",
+                    meaning=f"{over}, {case.name}", attribute="beta",
+                )
+                for case in cases
+            ),
+        ]  # fmt: skip
+    return {"Impact": impact, "Target resistance": resistance, **_OF_NO_CASE}
+
+
+_OF_NO_CASE: Mapping[str, list[Input]] = {
+    "Velocities of Figure 5": [
+        Input("V_from", "V", "figure-5-velocity-least", "m/s", "velocity of the first point"),
+        Input("V_to", "V", "figure-5-velocity-greatest", "m/s", "velocity of the last point"),
+    ],
+    "Craters and particles": [
+        Input("CV_PV", "CV/PV", "volume-ratio", own_limits=_UP_TO_HALF_A_SPHERE),
+        Input("CV_PV_line", "CV/PV", "volume-ratio-line", own_limits=_UP_TO_HALF_A_SPHERE),
+        Input("D_mean", "D", "mean-diameter", "um"),
+        Input("d_min", "d_min", "particle-size-least", "um", "a particle’s diameter, for Eq. 1"),
+        Input(
+            "d_max", "d_max", "particle-size-greatest", "um",
+            "another particle’s diameter, for Eq. 1",
+        ),
+        Input("observed_ratio", "X/R", "discussion-observed"),
+    ],
+    "Materials": [
+        Input("q_Y", "q/Y_t", "goodier-q"),
+        Input("E_t", "E_t", "elastic-modulus", "GPa"),
+        Input("Y_steel", "Y", "yield-strength", "MPa"),
+        Input("HB_ratio", "HB/UTS", "brinell-ratio"),
+        Input("S_feathery", "S", "strength-feathery", "ksi"),
+        Input("S_clear", "S", "strength-clear", "ksi"),
+        Input("S_bulk", "S", "strength-bulk", "ksi"),
+        Input("Y_copper", "Y_p", "copper-yield", "MPa"),
+        Input("L_typ", "L", "strain-rate-length", "um"),
+    ],
+    "Frank and Zook": [
+        Input("k_1", "k_1", "fz-k1"),
+        Input("k_t", "k_t", "fz-kt"),
+        Input("R_t_RHA", "R_t", "fz-resistance-rha", "MPa"),
+        Input("R_t_lower", "R_t", "fz-resistance-stainless", "MPa"),
+    ],
+}  # fmt: skip
+
+CONSTANTS = {
+    "pi_": ("circumference over diameter, π", "1"),
+    "ksi_Pa": ("1000 pound-force per square inch", "Pa"),
+    "travel_most": ("a step may pass this share of the radius", "1"),
+    "excess_most": ("the sheet may exceed the exact depth by", "1"),
+    "off_stop_most": ("the sheet may be off the exact depth at v_stop by", "1"),
+}
+"""Meanings and units of numbers that depend on no input. Programs differ in the digits of their own
+pi, so it stands in a cell. The last three are limits beyond which a run is not to be trusted; the
+command warns beyond the same ones."""
+
+_HEADS = (
+    ("Symbol", 9), ("Quantity", 50), ("Type here", 13), ("Unit", 8), ("Check", 12), ("In use", 14),
+    ("Unit", 8), ("The report’s", 12), ("It prints", 15), ("Where", 27), ("Least", 10),
+    ("Greatest", 12), ("Name", 14),
+)  # fmt: skip
+
+OF_REPORT, INFERRED_VALUE, YOURS = "the report’s", "as inferred", "yours"
+TOO_SMALL, TOO_LARGE, NO_NUMBER = "too small", "too large", "no number"
+"""What the column Check says of an input."""
+
+
+def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> SheetPlan:
+    """Plan the sheet `Inputs` for these cases, which share all inputs but the target resistance."""
+    about = "Every physical number: yours and the report’s, unit, check, limits, name"
+    sheet = SheetPlan(ledger=ledger, name="Inputs", about=about, columns="ABFGIJ")
+    sheet.begin("Inputs")
+    sheet.say(
+        "Type into the yellow cells, in the unit beside them; every sheet follows. On orange: an"
+        " input that the report never prints, inferred from Table A-1."
+    )
+    sheet.row = 9
+    sheet.table(_HEADS, right="CFHIKL", scrolling="C")
+    first = sheet.row
+    for block, inputs in inputs_of(cases, report).items():
+        sheet.block(block)
+        for entry in inputs:
+            sheet.put(**_input(ledger, entry, sheet.row))
+        sheet.row += 1
+    checks = f"E{first}:E{sheet.row - 2}"
+    _summary(sheet, checks)
+    _derived(sheet, cases)
+    _constants(sheet)
+    sheet.print_area = f"A1:J{sheet.row - 1}"
+    faults = ",".join(f'$E{first}="{fault}"' for fault in (TOO_SMALL, TOO_LARGE, NO_NUMBER))
+    sheet.rules = [
+        Rule(checks, f"=OR({faults})", "warning"),
+        Rule(checks, f'=$E{first}="{YOURS}"', "changed"),
+        Rule("A7", "=inputs_unusable>0", "warning"),
+    ]
+    return sheet
+
+
+def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
+    """Return the cells of an input's row."""
+    if entry.source.startswith(INFERRED):
+        style, same, place = "inferred", INFERRED_VALUE, "inferred from Table A-1"
+        prints = Cell("nowhere", "recorded")
+    else:
+        style, same, place = "input", OF_REPORT, str(ledger.claims[entry.source].place)
+        prints = printed(ledger, entry.source, entry.unit)
+    typed, of_report, least, most = (f"{column}{row}" for column in "CHKL")
+    check = (
+        f'=IF(inputs_from="report","{same}",IF(ISNUMBER({typed}),'
+        f'IF({typed}<{least},"{TOO_SMALL}",IF({typed}>{most},"{TOO_LARGE}",'
+        f'IF({typed}={of_report},"{same}","{YOURS}"))),"{NO_NUMBER}"))'
+    )
+    in_limits = f"IF({typed}<{least},NA(),IF({typed}>{most},NA(),{typed}))"
+    in_use = f'IF(inputs_from="report",{of_report},IF(ISNUMBER({typed}),{in_limits},NA()))'
+    si, unit = in_si(in_use, entry.unit), unit_in_use(entry.unit)
+    shown = "General" if unit == entry.unit else "0.0####E+00"
+    return {
+        "A": Cell(entry.symbol, "text"),
+        "B": Cell(entry.meaning or ledger.title(entry.source)),
+        "C": Cell(key=f"{entry.name}.typed", style=style, unit=entry.unit, limits=entry.limits),
+        "D": unit_text(entry.unit),
+        "E": formula(f"{entry.name}.check", check, "text"),
+        "F": formula(entry.name, f"={si}", named=True, unit=unit, shown=shown),
+        "G": unit_text(unit),
+        "H": recorded(entry.of_report(ledger)),
+        "I": prints,
+        "J": Cell(place, "unit"),
+        "K": recorded(entry.limits[0]),
+        "L": recorded(entry.limits[1]),
+        "M": Cell(entry.name, "unit"),
+    }
+
+
+def _summary(sheet: SheetPlan, checks: str) -> None:
+    """Add the choice of inputs, and what the checks in these cells say as a whole."""
+    unusable = "+".join(
+        f'COUNTIF({checks},"{fault}")' for fault in (TOO_SMALL, TOO_LARGE, NO_NUMBER)
+    )
+    message = (
+        f'=IF(inputs_unusable>0,"{messages.UNUSABLE}",IF(inputs_changed>0,"{messages.CHANGED}",'
+        f'IF(inputs_from="report","{messages.IGNORED}","{messages.UNCHANGED}")))'
+    )
+    no_choice = messages.NO_CHOICE
+    taken = '=IFERROR(IF(C4="report","report","yours"),"yours")'
+    choice = f'=IFERROR(IF(C4=inputs_from,"","{no_choice}"),"{no_choice}")'
+    changed = f'=COUNTIF({checks},"{YOURS}")'
+    sheet.cells |= {
+        "B4": Cell("Inputs to use: yours, or the report’s"),
+        "C4": Cell(key="inputs.choice", style="input", choices=["yours", "report"]),
+        "F4": formula("inputs_from", taken, named=True),
+        "G4": formula("inputs.no_choice", choice, "message"),
+        "B5": Cell("Inputs in use that are not the report’s"),
+        "C5": formula("inputs_changed", changed, "result", named=True),
+        "B6": Cell("Inputs that cannot be used"),
+        "C6": formula("inputs_unusable", f"={unusable}", "result", named=True),
+        "A7": formula("inputs.message", message, "message"),
+    }
+
+
+def _derived(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> None:
+    """Add the numbers that follow from the inputs."""
+    shown = "0.0####E+00"
+    sheet.block("What follows from them")
+    sheet.line("D_p", "D", "particle diameter", "=2*R_p", "m", beside="a1-diameter", shown=shown)
+    sheet.line(
+        "M_p", "M", "particle mass", "=rho_p*4/3*pi_*R_p*R_p*R_p", "kg", beside="a1-mass",
+        shown=shown,
+    )  # fmt: skip
+    for case in cases:
+        if not case.resistance_given:
+            sheet.line(
+                case.resistance, "R_t", f"target resistance, {case.name}",
+                f"=beta{case.input_suffix}*Y_t", "Pa",
+                beside="a1-resistance" if case.slug == "high" else "", shown=shown,
+            )  # fmt: skip
+    sheet.line(
+        "half_step", "Δt/2", "half step to start", "=dt_s/2*1000000000", "ns",
+        claim="a-half-step", shown="General",
+    )  # fmt: skip
+    sheet.line(
+        "mean_radius", "R", "radius of the mean particle", "=D_mean/2*1000000", "um",
+        claim="particle-radius", shown="General",
+    )  # fmt: skip
+    sheet.row += 1
+
+
+def _constants(sheet: SheetPlan) -> None:
+    """Add the numbers that depend on no input."""
+    sheet.block("Constants")
+    for name, (meaning, unit) in CONSTANTS.items():
+        sheet.put(
+            B=Cell(meaning),
+            F=recorded(name, named=True, unit=unit),
+            G=unit_text(unit),
+            M=Cell(name, "unit"),
+        )

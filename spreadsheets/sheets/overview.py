@@ -1,0 +1,170 @@
+"""The sheet `Overview`: results, whether they can be trusted, what the audit found, all sheets."""
+
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from itertools import zip_longest
+from textwrap import wrap
+
+from reference.ledger import Ledger
+from spreadsheets.plan import HOME, Cell, Place, Rule, SheetPlan, formula, printed, recorded
+from spreadsheets.sheets.audit import LIVE_VERDICTS, AuditResult
+from spreadsheets.sheets.case import CaseSheet
+
+PROGRAM = f"coldspray {version('coldspray')}"
+
+
+def overview(
+    ledger: Ledger, pages: Sequence[CaseSheet], sheets: Sequence[SheetPlan],
+    audited: AuditResult | None, computed_in: Mapping[str, Place],
+) -> SheetPlan:  # fmt: skip
+    """Plan the first sheet; `sheets` are the others, to which it links.
+
+    computed_in: the cell that computes a claim, by the claim's id.
+    """
+    report, scheme = ledger.report, pages[0].scheme
+    sheet = SheetPlan(ledger=ledger, name=HOME)
+    sheet.wide("A", 38)
+    sheet.wide("BCDE", 17)
+    sheet.wide("F", 54)
+    sheet.put(A=Cell(title_of(ledger), "title"))
+    sheet.say(
+        f"After the report by {report.author} ({report.year}). Written by {PROGRAM}; {scheme}"
+        f" scheme: the drag is taken at the {scheme.drag_at} velocity of a row.",
+        style="body",
+    )
+    if audited is not None:
+        sheet.say(audited.headline, style="headline", width=140)
+    _results(sheet, pages)
+    if audited is not None:
+        _failures(sheet, audited, computed_in)
+        sheet.page_break = sheet.row
+    _heads(sheet, "Sheets")
+    for page in sheets:
+        link = Cell(page.name, "link", link=(page.name, "A1"))
+        sheet.put(A=link, B=Cell(page.about))
+    _how_to_read(sheet)
+    sheet.print_area = f"A1:F{sheet.row - 1}"
+    return sheet
+
+
+def title_of(ledger: Ledger) -> str:
+    """Return the title of the workbook."""
+    return f"{ledger.report.title}: the model as a workbook"
+
+
+def _heads(sheet: SheetPlan, *heads: str, right: str = "") -> None:
+    """Add the heads of a table, after a blank row."""
+    sheet.row += 1
+    sheet.heads("ABCDEF", [*heads, *[""] * (6 - len(heads))], right)
+
+
+def _results(sheet: SheetPlan, pages: Sequence[CaseSheet]) -> None:
+    """Add the final depth of every case, the state of its run, and the counts of inputs."""
+    _heads(
+        sheet, "Results with the inputs in use", "Final depth [µm]", "The report prints",
+        "Depth over radius", "The report prints", "State of the run", right="BCDE",
+    )  # fmt: skip
+    for case in pages:
+        key, s = f"overview.{case.part}", case.suffix
+        claimed = case.is_reports and not case.coarse
+        depth, ratio = f"depth-beta-{case.beta}", f"ratio-beta-{case.beta}"
+        sheet.rules += case.rules(f"F{sheet.row}")
+        sheet.put(
+            A=Cell(case.name, "link", link=(case.name, "A1")),
+            B=formula(
+                f"{key}.depth_um", f"=depth_um{s}", "result", shown="0.0000", unit="um",
+                like=f"{case.part}.depth_um",
+            ),
+            C=printed(sheet.ledger, depth, "um") if claimed else None,
+            D=formula(
+                f"{key}.normalized_depth", f"=normalized_depth{s}", "result", shown="0.0000"
+            ),
+            E=printed(sheet.ledger, ratio) if claimed else None,
+            # A sheet keeps its name if beta is changed, so the state begins with the beta in use.
+            F=formula(f"{key}.message", f'=label{s}&": "&message{s}', "state"),
+        )  # fmt: skip
+    for name, label in (
+        ("inputs_changed", "Inputs in use that are not the report’s"),
+        ("inputs_unusable", "Inputs that cannot be used"),
+    ):
+        sheet.rules.append(Rule(f"B{sheet.row}", f"={name}>0", "warning"))
+        count = formula(f"overview.{name}", f"={name}", "result")
+        sheet.put(A=Cell(label, "link", link=("Inputs", "A1")), B=count)
+
+
+def _failures(sheet: SheetPlan, audited: AuditResult, computed_in: Mapping[str, Place]) -> None:
+    """Add the claims that fail, each with its explanation, and the counts of all verdicts."""
+    beside = "The report prints", "Inputs in use", "Why, with the report’s inputs"
+    _heads(sheet, "What does not follow from the report", *beside, right="BC")
+    for name in audited.failing:
+        _failure(sheet, name, audited, computed_in)
+    _heads(sheet, "Where public sources differ", *beside, right="BC")
+    for name in audited.differing:
+        _failure(sheet, name, audited, computed_in)
+    _heads(sheet, "Verdicts of the audit", "Entries", "", "Live verdicts", "Cells", right="BDE")
+    counted = [(verdict, count) for verdict, count in audited.counts.items() if count]
+    for (verdict, count), live in zip_longest(counted, [*LIVE_VERDICTS.items()][: len(counted)]):
+        cells = {"A": Cell(verdict, "link", link=("Audit", "A1")), "B": recorded(float(count))}
+        if live:
+            words, name = live
+            cells["D"] = Cell(words, "number")
+            cells["E"] = formula(f"overview.{name}", f"={name}", "result")
+        sheet.put(**cells)
+    sheet.say(
+        "Verdicts of the audit are about the report. Live verdicts tell which computed cells, with"
+        " the inputs in use, round to what the report prints, or keep to its bound."
+    )
+
+
+def _failure(
+    sheet: SheetPlan, name: str, audited: AuditResult, computed_in: Mapping[str, Place]
+) -> None:
+    ledger = sheet.ledger
+    first, *more = wrap(audited.explanations[name], 100)
+    cells = {
+        "A": Cell(ledger.claims[name].title),
+        "B": printed(ledger, name),
+        "D": Cell(first, "text"),
+    }
+    if name in computed_in:
+        page, address = computed_in[name]
+        shown = "0.0" if ledger.value(name) > 100 else "0.0000"
+        cells["C"] = formula(f"overview.{name}", f"='{page}'!{address}", "result", shown=shown)
+    sheet.put(**cells)
+    for line in more:
+        sheet.put(D=Cell(line, "text"))
+
+
+def _how_to_read(sheet: SheetPlan) -> None:
+    _heads(sheet, "How to read it")
+    for style, meaning in (
+        (
+            "input",
+            "Blue on yellow: an input. Change it on the sheet Inputs, and every sheet follows.",
+        ),
+        (
+            "inferred",
+            "Blue on orange: an input that the report never prints, inferred from others.",
+        ),
+        ("number", "Black: a formula, stored with the value that coldspray computed for it."),
+        (
+            "printed",
+            "Gray: what the report prints, or what was computed once. It does not change with the"
+            " inputs.",
+        ),
+    ):
+        sheet.put(A=Cell("1.23", f"{style} sample"), B=Cell(meaning, "text"))
+    sheet.put(
+        A=Cell("Faint #N/A", "number sample"),
+        B=Cell(
+            "Not computed: an input that it depends on cannot be used (Inputs, column E).", "text"
+        ),
+    )
+    sheet.put(
+        A=Cell("Protection", "number sample"),
+        B=Cell(
+            "Formulas are protected, without a password; nothing else is. To change them: Review >"
+            " Unprotect Sheet (LibreOffice: Tools > Protect Sheet).",
+            "text",
+        ),
+    )

@@ -1,0 +1,120 @@
+"""The sheet `Table A-1`, which has the report's table in the same cells, A1:F12.
+
+Each number format gives the text that the report prints; "6E-10" needs General. The printed texts
+themselves stand from column H on.
+"""
+
+from collections.abc import Mapping
+
+from reference.ledger import Claim, Ledger
+from reference.scheme import Scheme
+from spreadsheets.plan import HOME, Cell, SheetPlan, formula, printed
+from spreadsheets.sheets.case import (
+    COLUMNS,
+    FIRST_ROW,
+    CaseSheet,
+    if_in_use,
+    next_index,
+    step_formulas,
+)
+
+NAME = "Table A-1"
+
+TABLE_ROWS = 5
+"""Number of rows, including row 0, the impact itself."""
+
+ABOVE = {
+    "radius": "R =",
+    "particle_density": "Density =",
+    "mass": "M =",
+    "diameter": "D =",
+    "velocity": "Initial vel =",
+    "resistance": "Rt =",
+}
+"""Label of each cell above the rows, by the end of its key."""
+
+_FIRST = 8
+_MIDDLE = "G"
+"""The column of middle velocities, if there are any."""
+
+
+def claims_in_table(ledger: Ledger) -> dict[str, Claim]:
+    """Return the claims of Table A-1 by their address in the table."""
+    return {claim.place.cell: claim for claim in ledger.claims.values() if claim.place.cell}
+
+
+def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
+    """Plan Table A-1 for a case; the report's own is for beta = 5.
+
+    report: whether the printed texts stand beside it, in columns H to M.
+    """
+    claims, centered = claims_in_table(ledger), case.scheme is Scheme.CENTERED
+    about = "The first rows of the scheme, laid out as the report’s appendix prints them"
+    sheet = SheetPlan(ledger=ledger, name=NAME, about=about)
+    sheet.wide("ABCDEFHIJKLM", 13)
+    sheet.wide(_MIDDLE, 13 if centered else 4)
+
+    def live(address: str, key: str, expression: str) -> None:
+        """Add a formula, with the unit and number format of the claim that is printed there."""
+        claim = claims.get(address)
+        shown = "0.00E+00" if claim is None or "." in claim.text else "General"
+        unit = "m/s" if claim is None else claim.unit
+        sheet.cells[address] = formula(f"table.{key}", expression, shown=shown, unit=unit)
+        if claim:
+            sheet.claims[claim.id] = address
+
+    names = "R_p", "rho_p", "M_p", "D_p", "V_impact", case.resistance
+    for row, ((key, label), name) in enumerate(zip(ABOVE.items(), names, strict=True), start=1):
+        sheet.cells[f"A{row}"] = Cell(label)
+        live(f"B{row}", key, f"={name}")
+    for column, head in _heads(centered).items():
+        style = "head" if column in "AB" else "head right"
+        sheet.cells[f"{column}{_FIRST - 1}"] = Cell(head, style)
+    for step in range(TABLE_ROWS):
+        for column, expression in _row(case, step).items():
+            key = {"A": "time", _MIDDLE: "velocity_middle"}.get(column) or COLUMNS[column].key
+            live(f"{column}{_FIRST + step}", f"row.{key}[{step}]", expression)
+    if report:
+        sheet.cells |= _as_printed(ledger, claims)
+    sheet.row = 14
+    last = _MIDDLE if centered else "F"
+    beside = " Columns H to M are the report’s text." if report else ""
+    sheet.say(
+        f"Table A-1, rigid body penetration. Columns A to {last} are live, with the inputs of"
+        f" {case.name}.{beside}"
+    )
+    sheet.say(
+        "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3."
+    )
+    sheet.cells["A18"] = Cell(f"Back to {HOME}", "link", link=(HOME, "A1"))
+    return sheet
+
+
+def _heads(centered: bool) -> dict[str, str]:
+    heads = {"A": "Time", "B": "", **{letter: COLUMNS[letter].head for letter in "CDEF"}}
+    return heads | ({_MIDDLE: COLUMNS["H"].head} if centered else {})
+
+
+def _row(case: CaseSheet, step: int) -> dict[str, str]:
+    """Return the formulas of a row by column; its first column is the time, not the row number."""
+    row = _FIRST + step
+    if step == 0:
+        values = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
+        index = f"'{case.name}'!A{FIRST_ROW}"
+        start = {"A": f'=IF(ISNUMBER({index}),0,"")'}
+        return start | {column: if_in_use(row, values[column]) for column in "CDE"}
+    steps = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)"
+    time = next_index(row, step, f"{steps}*{case.time_step}")
+    return {"A": time, **step_formulas(case, row, step, middle=_MIDDLE)}
+
+
+def _as_printed(ledger: Ledger, claims: Mapping[str, Claim]) -> dict[str, Cell]:
+    """Return the table as the report prints it, in columns H to M."""
+    shifted = dict(zip("ABCDEF", "HIJKLM", strict=True))
+    cells = {f"H{row}": Cell(label, "unit") for row, label in enumerate(ABOVE.values(), start=1)}
+    for column, head in _heads(centered=False).items():
+        if head:
+            cells[f"{shifted[column]}{_FIRST - 1}"] = Cell(head, "unit right")
+    for address, claim in claims.items():
+        cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
+    return cells
