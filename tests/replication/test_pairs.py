@@ -39,7 +39,7 @@ def test_options_say_what_is_compared(
     for name, formula in (("a.xlsx", "=2*B1"), ("b.xlsx", "=2*B1*(1+1E-14)")):
         f = made("table-a1", BETA_5)
         f.put("Sheet1", "B4", formula)
-        paths.append(writers.with_openpyxl(f, tmp_path / name))
+        paths.append(writers.with_xlsxwriter(f, tmp_path / name, writers.calculated(f)))
     status, out, err = coldspray("diff", *paths, "--json", *options)
     assert (status, err) == (int(bool(kinds)), "")
     assert list(json.loads(out)["summary"]) == kinds
