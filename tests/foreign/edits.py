@@ -6,6 +6,7 @@ does it: references without $ move with the row.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from foreign import writers
 from foreign.byhand import BY_HAND, made
@@ -157,11 +158,14 @@ class Case:
             edit(f)
         return f
 
-    def written(self, path: "writers.Path") -> Foreign:
+    def written(self, path: Path) -> Foreign:
         """Write the workbook to a file: with stored values only if some are false."""
         f = self.book()
         false = {cell(f, address): value for address, value in self.stored.items()}
-        writers.written(f, path, writers.calculated(f) if false else None, false)
+        if false:
+            writers.with_xlsxwriter(f, path, writers.calculated(f) | false)
+        else:
+            writers.barely(f, path)
         return f
 
 

@@ -692,7 +692,6 @@ CASES = (
         put("E3", 1),
         fill("C10:C60", '=IF(F9<2,"",F9)'),
     ),
-    case("stop velocity zero", CLEAN, put("D3", "stop velocity"), put("E3", 0)),
     case(
         "stop velocity in two cells",
         CLEAN,

@@ -1,6 +1,6 @@
 """Rows that end early or late, last digits, numbers without formulas."""
 
-from foreign.edits import case, clear, fill, put
+from foreign.edits import case, fill, put
 from foreign.truth import CLEAN, EITHER, fault
 
 CASES = (
@@ -20,17 +20,6 @@ CASES = (
     case("step 6e-12 | rows 30", CLEAN, step=6e-12, steps=30),
     case("403 m/s in rows for 500", fault("other scheme", "F60"), put("B5", 403)),
     case("521 m/s in rows for 500", CLEAN, put("B5", 521)),
-    case(
-        "stop at 50 m/s, where its cell says so",
-        CLEAN,
-        clear("A55:A60"),
-        clear("C55:C60"),
-        clear("D55:D60"),
-        clear("E55:E60"),
-        clear("F55:F60"),
-        put("D3", "stop velocity"),
-        put("E3", 50),
-    ),
     case("beyond the radius, the area shrinks", fault(EITHER, "E47"), velocity=800.0),
     case(
         "beyond the radius, as it should be",
