@@ -23,14 +23,18 @@ Function = Callable[..., Number | Fraction]
 class Arithmetic:
     """The functions that the formulas need besides the operators, by default for single numbers.
 
-    `power` needs x > 0 unless the exponent is an integer. `cap_root` is the y in [0, 1] with
-    y^2 - y^3/3 = c, for c in [0, 2/3]. `below` is whether x < bound; None if that is not known of
-    all numbers in an interval.
+    `power` needs x > 0 unless the exponent is an integer. `cap_work` is y^2 - y^3/3 for y in [0,
+    1], and `cap_root` is the y with that value, for one in [0, 2/3]. `exp_mean_root` is the x >= 0
+    at which (e^x - 1) / x, the mean of e^t for t from 0 to x, is k >= 1. `below` is whether
+    x < bound; None if that is not known of all numbers in an interval.
     """
 
     pi: Number
     number: Callable[[Any], Number]
     log: Callable[[Any], Number]
+    log1p: Callable[[Any], Number]
+    expm1: Callable[[Any], Number]
+    exp_mean_root: Callable[[Any], Number]
     sqrt: Callable[[Any], Number]
     root: Callable[[Any, int], Number]
     sin: Callable[[Any], Number]
@@ -51,9 +55,13 @@ class Arithmetic:
         third = self.asin(self.sqrt(3 * c) / 2) / 3
         return 2 * self.sin(third) ** 2 + self.sqrt(self.number(3)) * self.sin(2 * third)
 
-    def crater(self, volume_ratio: Number) -> Number:
-        """Return X/R of a crater from CV/PV = y^2 (3 - y)/4 = (3/4) (y^2 - y^3/3), y = X/R."""
-        return self.cap_root(4 * volume_ratio / 3)
+    def cap_work(self, y: Number) -> Number:
+        return y * y * (3 - y) / 3
+
+    def exp_mean_slope(self, x: Number) -> Number:
+        """Return the derivative of (e^x - 1) / x at x > 0."""
+        mean = self.expm1(x) / x
+        return mean + (1 - mean) / x
 
     def contact_share(self, y: Number) -> Number:
         """Return the contact area over pi R^2 at y = x/R: y (2 - y), which increases on [0, 1]."""
@@ -82,6 +90,21 @@ class Reals(Arithmetic):
     def log(self, x: Number) -> Number:
         return self._real(self.context.log(x))
 
+    def log1p(self, x: Number) -> Number:
+        return self._real(self.context.log1p(x))
+
+    def expm1(self, x: Number) -> Number:
+        return self.context.expm1(x)
+
+    def exp_mean_root(self, k: Number) -> Number:
+        """Return x by Lambert's function: h (1 + k x) = -W(-h e^-h) with h = 1/k, lower branch."""
+        if k < 1:
+            raise NoRootError("(e^x - 1) / x is at least 1")
+        # Close to k = 1, at the branch point, half of the digits are lost twice.
+        wide = _context(3 * self.context.dps)
+        h = 1 / wide.convert(k)
+        return self.context.convert(-h - wide.lambertw(-h * wide.exp(-h), -1).real)
+
     def root(self, x: Number, degree: int) -> Number:
         return self._real(self.context.root(x, degree))
 
@@ -109,6 +132,10 @@ def _context(digits: int) -> Any:
     return context
 
 
+class NoRootError(ArithmeticError):
+    """No number in the argument has the root."""
+
+
 class InexactError(ArithmeticError):
     """The value is not rational, or not known to be."""
 
@@ -121,7 +148,7 @@ class Rationals(Arithmetic):
     def _inexact(self, *_: Number) -> Number:
         raise InexactError("the value is not rational, or not known to be")
 
-    log = sqrt = root = asin = _inexact
+    log = log1p = expm1 = exp_mean_root = sqrt = root = asin = _inexact
     pi = property(_inexact)
 
 
@@ -131,6 +158,7 @@ class Floats(Arithmetic):
     pi = math.pi
     number: Callable[[Any], Number] = float
     log, sqrt = staticmethod(math.log), staticmethod(math.sqrt)
+    log1p, expm1 = staticmethod(math.log1p), staticmethod(math.expm1)
     sin, asin = staticmethod(math.sin), staticmethod(math.asin)
 
     def power(self, x: Number, exponent: Fraction) -> Number:
@@ -236,6 +264,17 @@ class Duals(Arithmetic):
     def log(self, x: Dual) -> Dual:
         return x.scaled(self.arithmetic.log(x.value), 1 / x.value)
 
+    def log1p(self, x: Dual) -> Dual:
+        return x.scaled(self.arithmetic.log1p(x.value), 1 / (1 + x.value))
+
+    def expm1(self, x: Dual) -> Dual:
+        value = self.arithmetic.expm1(x.value)
+        return x.scaled(value, 1 + value)
+
+    def exp_mean_root(self, k: Dual) -> Dual:
+        x = self.arithmetic.exp_mean_root(k.value)
+        return k.scaled(x, 1 / self.arithmetic.exp_mean_slope(x))
+
     def root(self, x: Dual, degree: int) -> Dual:
         value = self.arithmetic.power(x.value, Fraction(1, degree))
         return x.scaled(value, value / x.value / degree)
@@ -255,6 +294,9 @@ class Duals(Arithmetic):
 
     def contact_share(self, y: Dual) -> Dual:
         return y.scaled(self.arithmetic.contact_share(y.value), 2 - 2 * y.value)
+
+    def cap_work(self, y: Dual) -> Dual:
+        return y.scaled(self.arithmetic.cap_work(y.value), self.arithmetic.contact_share(y.value))
 
     def cap_root(self, c: Dual) -> Dual:
         y = self.arithmetic.cap_root(c.value)

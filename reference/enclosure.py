@@ -8,6 +8,7 @@ is halved again and again. If the budget runs out first, the question stays unde
 
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from fractions import Fraction
 from math import inf, isinf
 
@@ -231,13 +232,25 @@ def bounds(constraints: Sequence[Constraint], name: str, box: Box) -> Ends:
     >>> [f"{float(end):.3f}" for end in bounds([product], "x", box)]
     ['1.000', '3.000']
     """
-    outer = list(box[name])
+    return _bounds(_monotone(constraints, box), name, box)
+
+
+def _monotone(constraints: Sequence[Constraint], box: Box) -> list[tuple[Constraint, Range]]:
+    """Return the constraints that are proven monotone in every input, each with its range."""
+    monotone = []
     for function, target in constraints:
-        try:
+        with suppress(ArithmeticError):  # it may be undefined in part of the box: it bounds nothing
             range_ = enclose(function, box)
-        except ArithmeticError:  # it may be undefined in part of the box, and bounds nothing
-            continue
-        for top in (0, 1) if range_.is_monotone else ():
+            if range_.is_monotone:
+                monotone.append(((function, target), range_))
+    return monotone
+
+
+def _bounds(monotone: Sequence[tuple[Constraint, Range]], name: str, box: Box) -> Ends:
+    """Return bounds of one input by constraints that are monotone in all of a box around `box`."""
+    outer = list(box[name])
+    for (function, target), range_ in monotone:
+        for top in (0, 1):
             # For this input's greatest value, inputs with the same sign are low and others high.
             alike = {key: range_.signs.get(key, 1) == range_.signs.get(name, 1) for key in box}
             others = {key: ends[alike[key] != top] for key, ends in box.items() if key != name}
@@ -254,14 +267,15 @@ def satisfying(
 ) -> tuple[bool | None, dict[str, Fraction] | None]:
     """Return whether some point of the box satisfies every constraint, and such a point.
 
-    The answer is False only where this is proven; it is None if the budget of boxes runs out.
-    Boxes are halved until each is excluded by a constraint. In each box one point is tried, which
-    the linearized constraints suggest. Constraints are tested in their order: it saves time to put
-    cheap and narrow ones first.
+    The answer is False only where this is proven; it is None if the budget of boxes runs out. In
+    each box one point is tried, which the linearized constraints suggest. If that of the whole box
+    does not satisfy them, `bounds` narrows every input: at corners only, as far as derivatives have
+    a proven sign. Boxes that this leaves open are halved until each is excluded by a constraint.
+    Constraints are tested in their order: it saves time to put cheap and narrow ones first.
     """
     queue = deque([(box, list(constraints))])
     sizes = {name: max(map(abs, ends)) or 1 for name, ends in box.items()}
-    for _ in range(budget):
+    for tried in range(budget):
         if not queue:
             break
         part, remaining = queue.popleft()
@@ -271,11 +285,27 @@ def satisfying(
         point = _candidate(undecided, part)
         if _undecided(undecided, _points(point)) == []:
             return True, point
+        if tried == 0:
+            narrowed = _narrowed(undecided, part)
+            queue += [(narrowed, undecided)] if narrowed else []
+            continue
         # Halve the input whose range is widest relative to its largest magnitude in the whole box.
         name = max(part, key=lambda name: (part[name][1] - part[name][0]) / sizes[name])
         (low, high), middle = part[name], _middle(part)[name]
         queue += [({**part, name: half}, undecided) for half in ((low, middle), (middle, high))]
     return (None if queue else False), None
+
+
+def _narrowed(constraints: Sequence[Constraint], box: Box) -> Box | None:
+    """Return the part of a box that the bounds of its inputs leave; None if that is nothing."""
+    monotone = _monotone(constraints, box)
+    for name in [name for name, (low, high) in box.items() if low != high]:
+        low, high = _bounds(monotone, name, box)
+        if low > high:
+            return None
+        if low < high:  # a single value may be an open end, which does not belong to the box
+            box = {**box, name: (low, high)}
+    return box
 
 
 def _candidate(constraints: Sequence[Constraint], box: Box) -> dict[str, Fraction]:

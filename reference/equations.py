@@ -35,7 +35,7 @@ class Node(msgspec.Struct, frozen=True):
 
     Its `kind` is "number" (with its `value`, and its text as `name`), "symbol" (with its `name`),
     or the operation on its `parts`: "sum", "negative", "product", "quotient", "power", or one of
-    NAMED_FUNCTIONS.
+    LOGARITHMS.
     """
 
     kind: str
@@ -48,9 +48,8 @@ Sides = Mapping[str, tuple[Node, ...]]
 """The sides of every printed equation, by the equation's id."""
 
 
-NAMED_FUNCTIONS = ("ln", "log", "expm1", "crater", "normal", "rounded")
-"""The report has the first two. Formulas of the ledger and the findings also have e^x - 1, a
-crater's X/R for a CV/PV, the share of a normal distribution below x, and x to three digits."""
+LOGARITHMS = ("ln", "log")
+"""The named functions of the report, natural and to base 10; log stands in misprints of ln."""
 
 
 _OPERATORS = {
@@ -74,7 +73,7 @@ class _Reader:
             r"(?P<space>(?:\s|\\quad|&)*)(?:"
             rf"(?P<symbol>{'|'.join([*map(re.escape, longest_first), '(?!)'])})"
             r"|(?P<number>\d+(?:\.\d+)?)"
-            rf"|(?P<function>\\(?:{'|'.join(NAMED_FUNCTIONS)})(?![a-zA-Z]))"
+            rf"|(?P<function>\\(?:{'|'.join(LOGARITHMS)})(?![a-zA-Z]))"
             r"|(?P<fraction>\\frac(?![a-zA-Z]))"
             r"|(?P<sign>[-+/^(){}])"
             r"|(?P<end>\Z)|(?P<unreadable>.))"
@@ -184,7 +183,8 @@ def read_equation(text: str, symbols: Mapping[str, str]) -> tuple[Node, ...]:
 def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
     r"""Return the value of an expression in an arithmetic, given the values of its symbols in SI.
 
-    A Fraction among the values is converted to the arithmetic. A symbol in an exponent needs one.
+    A Fraction or an integer among the values is converted to the arithmetic. A symbol in an
+    exponent needs a Fraction.
     Raises NoValueError for a symbol without a value, and EquationError for an exponent that is not
     rational.
 
@@ -197,7 +197,7 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
         known = ar.pi if node.name == "pi" else values.get(node.name)
         if known is None:
             raise NoValueError(f"the symbol {node.name} has no value here")
-        return ar.number(known) if type(known) is Fraction else known
+        return ar.number(known) if type(known) in _EXACT else known
     if node.kind == "number":
         return ar.number(node.value)
     if node.kind == "power":
@@ -205,12 +205,10 @@ def evaluate(node: Node, ar: Any, values: Mapping[str, Any]) -> Any:
         if base.kind == "power":  # (b^p)^q = b^(p q), as every base here is positive
             base, power = base.parts[0], power * _exponent(base.parts[1], values)
         return ar.power(evaluate(base, ar, values), power)
-    numbers = [evaluate(part, ar, values) for part in node.parts]
-    if node.kind in _OPERATIONS:
-        return _OPERATIONS[node.kind](ar, *numbers)
-    return getattr(ar, node.kind)(*numbers)
+    return _OPERATIONS[node.kind](ar, *[evaluate(part, ar, values) for part in node.parts])
 
 
+_EXACT = (Fraction, int)
 _OPERATIONS: Mapping[str, Callable[..., Any]] = {
     "negative": lambda _, x: -x,
     "sum": lambda _, *terms: reduce(add, terms),
@@ -228,6 +226,24 @@ def _exponent(node: Node, values: Mapping[str, Any]) -> Fraction:
         return Fraction(evaluate(node, Rationals(), known))
     except (EquationError, InexactError) as error:
         raise EquationError("an exponent is not a number") from error
+
+
+class Equations:
+    r"""The printed equations as functions of their symbols.
+
+    >>> from reference.arithmetic import Floats
+    >>> names = {"D": "D", "R": "R"}
+    >>> Equations({"diameter": read_equation("D = 2R", names)})["diameter"](Floats(), R=1.5)
+    3.0
+    """
+
+    def __init__(self, sides: Sides) -> None:
+        self._sides = sides
+
+    def __getitem__(self, name: str) -> Callable[..., Any]:
+        """Return the last side of an equation as a function of an arithmetic and its symbols."""
+        side = self._sides[name][-1]
+        return lambda ar, **symbols: evaluate(side, ar, symbols)
 
 
 class _Dimensions:

@@ -137,6 +137,12 @@ class Intervals(Arithmetic):
     def log(self, x: Number) -> Number:
         return _increasing(arb.log, x)
 
+    def log1p(self, x: Number) -> Number:
+        return _increasing(arb.log1p, x)
+
+    def expm1(self, x: Number) -> Number:
+        return _increasing(arb.expm1, x)
+
     def root(self, x: Number, degree: int) -> Number:
         return _increasing(lambda end: end.root(degree), x)
 
@@ -160,6 +166,23 @@ class Intervals(Arithmetic):
                 raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
         return Span(low, high)
 
+    def cap_work(self, y: Number) -> Number:
+        return _increasing(lambda end: end * end * (3 - end) / 3, y)
+
+    def exp_mean_root(self, k: Number) -> Number:
+        """Return a verified interval of the roots for the numbers in k.
+
+        A number below 1 has none, for which 0 is taken, the root of 1: so this stays a continuous
+        function, and an interval whose upper end is 0 proves that there is none.
+        """
+        with self.working():
+            least, greatest = _bounded(k)
+            return Span(_exp_mean_bound(least, -1), _exp_mean_bound(greatest, 1))
+
+    def exp_mean_slope(self, x: Number) -> Number:
+        """Return an enclosure: the mean of t e^(t x) for t from 0 to 1 is from 1/2 to e^x / 2."""
+        return Span(_ONE / 2, _bounded(x)[1].exp() / 2)
+
     def below(self, x: Number, bound: Number) -> bool | None:
         if _end_balls(x)[0] >= _end_balls(bound)[1]:
             return False
@@ -178,6 +201,33 @@ class Intervals(Arithmetic):
     def hull(self, numbers: list[Number]) -> Number:
         lows, highs = zip(*map(_bounded, numbers), strict=True)
         return Span(reduce(arb.min, lows), reduce(arb.max, highs))
+
+
+def _exp_mean_bound(k: arb, side: int) -> arb:
+    """Return a number that is verified to be no greater (side -1) or no less (1) than the root x.
+
+    (e^x - 1) / x = k increases with x from 1 at 0, and 2 ln k is at or above x. Newton's method for
+    ln((e^x - 1) / x) = ln k, whose slope increases from 1/2 to 1, descends from there to x.
+    """
+    excess = (k - 1).upper() if side > 0 else (k - 1).lower()
+    if not excess > 0:
+        return _ZERO
+    goal = excess.log1p().mid()
+    x = 2 * goal
+    for _ in range(100):
+        mean = (x.expm1() / x).mid()
+        lower = (x - (mean.log() - goal) / (1 + 1 / x.expm1() - 1 / x)).mid()
+        if not _ZERO < lower < x:
+            break
+        x = lower
+    margin = arb(2) ** (20 - ctx.prec)
+    while margin < 1:
+        bound = (x * (1 + side * margin)).mid()
+        mean = bound.expm1() / bound - 1
+        if mean >= excess if side > 0 else mean <= excess:
+            return bound
+        margin = margin * 16
+    return _ZERO if side < 0 else (2 * excess.log1p()).upper()
 
 
 def _ball(value: Fraction | int) -> arb:

@@ -20,9 +20,10 @@ import msgspec
 from msgspec.structs import replace
 
 from reference.arithmetic import Arithmetic, Function, Number
-from reference.equations import EquationError, Node, Sides, read_equation
-from reference.formulas import Computation, Entry, Equation, function_of
+from reference.computations import COMPUTATIONS, Computation
+from reference.equations import EquationError, Equations, Node, Sides, read_equation
 from reference.printed import Interval, Place, Printed, Rounding, parse, place_of
+from reference.scheme import Scheme
 from reference.units import Dimension, raised, to_si, unit_dimension
 
 INFERRED = "inferred:"
@@ -44,6 +45,10 @@ def shown(text: str) -> str:
     text = re.sub(r"\^\{(-?\d+)\}", r"^\1", text)
     text = re.sub(r"\^\{([^{}]*)\}", r"^(\1)", text)
     return re.sub(r"~\s+", "~", raised(text))
+
+
+class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+    """A table of a TOML file; an unknown key is an error."""
 
 
 class Inferred(Entry, frozen=True):
@@ -83,16 +88,6 @@ class Quantity(Entry, frozen=True):
     unit: str
     search: tuple[Fraction, Fraction]
     reason: str
-
-
-class Slip(Entry, frozen=True):
-    """A slip the author may have made: computing with another equation or with other inputs."""
-
-    name: str
-    reason: str
-    equation: str
-    text: str | None = None
-    inputs: Mapping[str, str] = {}
 
 
 class Source(Entry, frozen=True):
@@ -143,14 +138,13 @@ class Convention(msgspec.Struct, frozen=True):
 
     `rounding` is how values became printed text. With `choices_exact`, what the author chose
     (500 m/s, 700 MPa, 0.2 ns) is exact, not rounded; with `header_exact`, so are the numbers
-    above the rows of Table A-1. With `centered`, the sheet takes the drag at the velocity in the
-    middle of a time step, otherwise at the velocity at its start.
+    above the rows of Table A-1. `scheme` is how the sheet is computed.
     """
 
     rounding: Rounding = Rounding.AWAY
     choices_exact: bool = True
     header_exact: bool = False
-    centered: bool = False
+    scheme: Scheme = Scheme.PUBLISHED
 
 
 def in_header(cell: str | None) -> bool:
@@ -158,8 +152,19 @@ def in_header(cell: str | None) -> bool:
     return cell is not None and cell.startswith("B")
 
 
+class Equation(Entry, frozen=True, eq=False):
+    """A printed equation, with its place in the report; `reference.derivations` checks it."""
+
+    id: str
+    title: str
+    quote: str
+    kind: Literal["derived", "definition", "taken over"]
+    follows_from: str
+    place: Place = Place()
+
+
 class Claim(Entry, frozen=True, dict=True, eq=False):
-    """A [[claim]]: one printed number, with what is recorded about it and what follows from that.
+    """A claim: one printed number, with what is recorded about it and what follows from that.
 
     `Ledger.claims` fills in the fields from `text` on. `why` is the reason of which `given` is the
     key. `computations` has the computation as printed under the name "", and other readings by
@@ -173,19 +178,19 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     quote: str
     kind: Kind
     unit: str = "1"
-    computed_by: str | None = None
-    rests_on: Mapping[str, str] = {}
-    readings: Mapping[str, str] = {}
-    same_as: str | None = None
-    given: str | None = None
-    shown_by: Sequence[str] = ()
+    exact: bool = False
     relation: Literal["<", "<=", ">", ">="] | None = None
     against: str | None = None
-    assumes: str | None = None
-    exact: bool = False
     cell: str | None = None
     row: int | None = None
     quantity: str | None = None
+    computed_by: str | None = None
+    rests_on: Mapping[str, str] = {}
+    readings: Mapping[str, str] = {}
+    assumes: str | None = None
+    same_as: str | None = None
+    given: str | None = None
+    shown_by: Sequence[str] = ()
     workbook: str | None = None
     text: str = ""
     place: Place = Place()
@@ -303,14 +308,31 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     def uses(self) -> list[str]:
         """The ids of the printed equations in the claim's computations, sorted."""
         computations = self.computations.values()
-        return sorted({p.equation for own in computations for p in own.premises.values()})
+        return sorted({name for own in computations for name in own.equations})
+
+
+class Lines(Entry, frozen=True):
+    """The lines of a claim or an equation in ledger.toml."""
+
+    quote: str
+    what: Mapping[str, Any]
+    basis: Mapping[str, Any] = {}
+    workbook: str | None = None
+
+
+class Column(Entry, frozen=True):
+    """What the claims in a column of Table A-1 have in common; their ids begin with `id`."""
+
+    id: str
+    what: Mapping[str, Any]
+    basis: Mapping[str, Any]
 
 
 class TimeSteps(Entry, frozen=True):
-    """The table [time_steps]: the rows of Table A-1 as printed, and the common keys of columns."""
+    """The table [time_steps]: the rows of Table A-1 as printed, and what columns have in common."""
 
     rows: Mapping[str, str]
-    columns: Mapping[str, Mapping[str, Any]]
+    columns: Mapping[str, Column]
 
     @property
     def claims(self) -> Iterator[Claim]:
@@ -319,11 +341,26 @@ class TimeSteps(Entry, frozen=True):
             cells = dict(zip(ascii_uppercase, printed.split("\t"), strict=False))
             for letter, column in self.columns.items():
                 marked = {**cells, letter: f"⟦{cells[letter]}⟧"}
-                own = {
-                    "id": f"{column['id']}-{step}", "title": f"{column['title']}, row {step}",
-                    "quote": "\t".join(marked.values()), "cell": f"{letter}{row}", "row": step,
+                what = {
+                    **column.what, "title": f"{column.what['title']}, row {step}",
+                    "cell": f"{letter}{row}", "row": step,
                 }  # fmt: skip
-                yield msgspec.convert({**column, **own}, Claim)
+                lines = Lines("\t".join(marked.values()), what, column.basis)
+                yield entry(f"{column.id}-{step}", lines, Claim)
+
+
+def entry(name: str, lines: Lines, kind: type[Entry]) -> Any:
+    """Return the claim or the equation that these lines give.
+
+    Raises msgspec.ValidationError, with its id, for an unknown key or a missing one.
+    """
+    keys = {**lines.what, **lines.basis, "id": name, "quote": lines.quote}
+    if lines.workbook:
+        keys["workbook"] = lines.workbook
+    try:
+        return msgspec.convert(keys, kind)
+    except msgspec.ValidationError as error:
+        raise msgspec.ValidationError(f"ledger.toml: {name}: {error}") from error
 
 
 class Ledger(Entry, frozen=True, dict=True, eq=False):
@@ -340,11 +377,9 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     symbols: dict[str, Symbol]
     quantities: dict[str, Quantity]
     incidental: list[dict[Literal["pattern", "reason"], str]]
-    equation: list[Equation]
-    claim: list[Claim]
+    equation: dict[str, Lines]
+    claim: dict[str, Lines]
     time_steps: TimeSteps
-    slip: list[Slip]
-    computation: list[Computation]
     misprinted: Mapping[str, str] = {}
 
     @cached_property
@@ -363,23 +398,20 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         return [source for source in self.sources.values() if name in source.claims]
 
     @cached_property
-    def computations(self) -> Mapping[str, Computation]:
-        """The computations, by name."""
-        return {computation.name: computation for computation in self.computation}
-
-    @cached_property
     def equations(self) -> Mapping[str, Equation]:
         """The printed equations, by id."""
-        return {
-            equation.id: replace(equation, place=place_of(self.text, equation.quote))
-            for equation in self.equation
-        }
+        located = {}
+        for name, lines in self.equation.items():
+            place = place_of(self.text, lines.quote)
+            located[name] = replace(entry(name, lines, Equation), place=place)
+        return located
 
     @cached_property
     def claims(self) -> Mapping[str, Claim]:
         """The claims, by id."""
         located = {}
-        for claim in (*self.claim, *self.time_steps.claims):
+        single = (entry(name, lines, Claim) for name, lines in self.claim.items())
+        for claim in (*single, *self.time_steps.claims):
             place = place_of(self.text, claim.quote, claim.cell)
             text = self.text[place.start : place.end]
             located[claim.id] = replace(claim, text=text, place=place)
@@ -401,7 +433,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         return replace(
             claim,
             why=claim.given and self.reasons[claim.given],
-            computations={key: self.computations[name] for key, name in readings.items() if name},
+            computations={key: COMPUTATIONS[name] for key, name in readings.items() if name},
             inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
             within=next(around, None),
             chosen=original.given == "choice",
@@ -494,27 +526,35 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     # Claims as functions of their entries
 
-    def function(self, claim: Claim, *, reading: str = "", centered: bool = False) -> Function:
+    def function(
+        self,
+        claim: Claim,
+        *,
+        reading: str = "",
+        scheme: Scheme = Scheme.PUBLISHED,
+        equations: Equations | None = None,
+    ) -> Function:
         """Return a claim's computation, as a function of an arithmetic and of its entries by id.
 
         An entry that occurs in several inputs is a single variable of that function. `reading` is
-        the name of one of the claim's computations, and `centered` that of `Convention`.
+        the name of one of the claim's computations. Only what runs the sheet depends on `scheme`.
+        `equations` are by default those that the ledger prints.
         """
-        computation = claim.computations[reading]
+        computation, inputs = claim.computations[reading], dict(claim.inputs)
         settings: dict[str, Any] = {}
+        if "eq" in computation.settings:
+            settings["eq"] = equations or Equations(self.sides)
         if computation.by_row:
             settings["row"] = claim.row
         if computation.by_scheme:
-            settings["centered"] = centered
-        inputs = dict(claim.inputs)
+            settings["scheme"] = scheme
         if "power" in inputs:  # an exponent stays exact
             settings["power"] = self.value(*inputs.pop("power"))
-        compute = function_of(computation, self.sides, (*inputs, *settings))
 
         def of_entries(ar: Arithmetic, **entries: Number) -> Number | Fraction:
             value = entries.__getitem__
             known = {key: reduce(mul, map(value, names)) for key, names in inputs.items()}
-            return compute(ar, **known, **settings)
+            return computation.function(ar, **known, **settings)
 
         return of_entries
 

@@ -11,6 +11,7 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from reference.arithmetic import Arithmetic, Number, Reals
+from reference.scheme import Scheme
 
 
 class Row(NamedTuple):
@@ -31,7 +32,7 @@ def sheet_rows(
     resistance: Number,
     step: Number,
     mass: Number | None = None,
-    centered: bool = False,
+    scheme: Scheme = Scheme.PUBLISHED,
     stop_velocity: Number | None = None,
     most_rows: int = 5000,
 ) -> Iterator[Row]:
@@ -39,7 +40,7 @@ def sheet_rows(
 
     The depth is V dt/2 in the first row and increases by v dt in every later one, where v is the
     row's initial velocity. The deceleration is taken at that depth and that velocity or, in the
-    centered variant, at that depth and the velocity half a step later. The mass is the sphere's
+    centered scheme, at that depth and the velocity half a step later. The mass is the sphere's
     unless another is given. The last row is the first whose final velocity is certainly below the
     stop velocity. Raises ArithmeticError after `most_rows`, by default 40 times the report's.
     """
@@ -49,6 +50,7 @@ def sheet_rows(
     else:
         area_over_mass = ar.pi * radius * radius / mass
 
+    is_centered = scheme is Scheme.CENTERED
     drag, push = target_density / 2 * area_over_mass, resistance * area_over_mass
     half_step, per_radius, unity = step / 2, 1 / radius, ar.number(1)
 
@@ -59,7 +61,7 @@ def sheet_rows(
     x, v = velocity * half_step, velocity
     for _ in range(most_rows):
         a = deceleration(x, v)
-        if centered:
+        if is_centered:
             a = deceleration(x, v - a * half_step)
         v_final = v - a * step
         yield Row(v, x, a, v_final)
@@ -73,13 +75,13 @@ def sheet_rows(
     raise ArithmeticError(f"the sheet does not end in {most_rows} rows")
 
 
-def sheet_depth(ar: Arithmetic, centered: bool, stop_velocity: Number, **inputs: Number) -> Number:
+def sheet_depth(ar: Arithmetic, scheme: Scheme, stop_velocity: Number, **inputs: Number) -> Number:
     """Return the depth [m] in the first row whose final velocity is below the stop velocity [m/s].
 
     In interval arithmetic it is the hull of the depths in all rows that may be that row. The other
     inputs are those of `sheet_rows`.
     """
-    rows = sheet_rows(ar, centered=centered, stop_velocity=stop_velocity, **inputs)
+    rows = sheet_rows(ar, scheme=scheme, stop_velocity=stop_velocity, **inputs)
     return ar.hull(
         [row.depth for row in rows if ar.below(row.velocity_final, stop_velocity) is not False]
     )

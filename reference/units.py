@@ -6,6 +6,7 @@ never rounds: an inch is 254/10000 m, and a pound-force 0.45359237 * 9.80665 N.
 """
 
 import re
+from difflib import get_close_matches
 from fractions import Fraction
 from functools import cache
 
@@ -99,9 +100,7 @@ def _unit(unit: str) -> tuple[Fraction, Dimension]:
     matches = list(_FACTOR.finditer(text[:_LONGEST]))
     is_complete = matches and "".join(match[0] for match in matches) == text
     if not is_complete or not all(match["name"] in _UNITS for match in matches):
-        raise UnitError(
-            f"unknown unit {unit[:_LONGEST]!r}: take one such as um, ns, m/s, kg/m^3, MPa or ksi"
-        )
+        raise UnitError(f"unknown unit {unit[:_LONGEST]!r}: {_advice(unit)}")
     factor, dimension = Fraction(1), Dimension()
     for match in matches:
         power = int(match["power"] or 1) * (-1 if match["over"] == "/" else 1)
@@ -109,6 +108,18 @@ def _unit(unit: str) -> tuple[Fraction, Dimension]:
         factor *= base**power
         dimension *= base_dimension**power
     return factor, dimension
+
+
+def _advice(unit: str) -> str:
+    """Say which units an unknown one is probably meant to be, in capitals or not."""
+    names: dict[str, list[str]] = {}
+    for name in _UNITS:
+        names.setdefault(name.lower(), []).append(name)
+    text = unit[:_LONGEST].lower()
+    similar = [text] if text in names else get_close_matches(text, names, n=2, cutoff=0.7)
+    if meant := [name for lower in similar for name in names[lower]]:
+        return f"did you mean {' or '.join(meant)}?"
+    return "take one such as um, ns, m/s, kg/m^3, MPa or ksi"
 
 
 def to_si(unit: str) -> Fraction:

@@ -7,7 +7,9 @@ from importlib import resources
 from typing import Any
 
 
-def filled(package: str, name: str, parts: Mapping[str, Any], filters: Mapping[str, Any]) -> str:
+def from_template(
+    package: str, name: str, parts: Mapping[str, Any], filters: Mapping[str, Any]
+) -> str:
     """Fill a template from a package's folder with `parts`.
 
     HTML templates escape every value that is not Markup.

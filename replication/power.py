@@ -14,7 +14,8 @@ import msgspec
 
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
-from replication.audit.explain import dependents, disagreeing, edits_of
+from replication.audit.explain import dependents, edits_of
+from replication.audit.verdict import disagreeing
 from replication.text import Table
 
 
@@ -74,10 +75,10 @@ class Power(Counts, kw_only=True):
         return Table("Rates in percent", ("", "planted", "visible", *rates), rows)
 
 
-def measured() -> Power:
+def measured_rates() -> Power:
     """Return the stored output of `coldspray power --json`; a slow test measures it again.
 
-    >>> measured().planted
+    >>> measured_rates().planted
     500
     """
     file = resources.files("replication") / "power.json"
@@ -124,16 +125,19 @@ def new_failures(
     """
     wrong = set()
     for name in equations:
-        assessed = audit.equation(name, constants=False)
+        assessed = audit.judge.assess_equation(name, constants=False)
         # An equation that fails in the true report, too, must fail in another way.
-        if assessed.verdict.is_failure and assessed.checks != truth.equation(name).checks:
+        if (
+            assessed.verdict.is_failure
+            and assessed.checks != truth.judge.assess_equation(name).checks
+        ):
             wrong.add(name)
     constants = {claim.id for claim in audit.ledger.claims.values() if claim.within in wrong}
     return wrong | {
         name
         for name in constants.union(claims)
-        if audit.assessment(audit.ledger.claims[name]).verdict.is_doubtful
-        and not truth.assessment(truth.ledger.claims[name]).verdict.is_doubtful
+        if audit.judge.assess(audit.ledger.claims[name]).verdict.is_doubtful
+        and not truth.judge.assess(truth.ledger.claims[name]).verdict.is_doubtful
     }
 
 

@@ -5,10 +5,12 @@ import sys
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from reference.printed import Interval, parse
 from reference.units import same_dimension, to_si
 
 
@@ -45,6 +47,20 @@ def printable(text: str) -> str:
     'a\\nb\\x1b[31m'
     """
     return "".join(c if c.isprintable() else repr(c)[1:-1] for c in text)
+
+
+def advice(text: str, known: Iterable[str], otherwise: str | None = None) -> str:
+    """Say which of the known names a user probably meant by an unknown one.
+
+    Without a similar one it is `otherwise`, or all of them.
+
+    >>> advice("velocty", ["velocity", "radius"]), advice("x", ["velocity", "radius"])
+    ('did you mean velocity?', 'choose one of velocity, radius')
+    """
+    names = list(known)
+    if similar := get_close_matches(text[:80], names, n=3):
+        return f"did you mean {' or '.join(similar)}?"
+    return f"choose one of {', '.join(names)}" if otherwise is None else otherwise
 
 
 @contextmanager
@@ -118,7 +134,7 @@ def check_keys(
     known = [*wanted, *allowed]
     for key in table:
         if key not in known:
-            raise ValueError(f"there is no {quoted(key)} here: choose one of {', '.join(known)}")
+            raise ValueError(f"there is no {quoted(key)} here: {advice(key, known)}")
     for key in wanted:
         if key not in table:
             raise ValueError(f"{quoted(key)} is missing")
@@ -130,15 +146,8 @@ _NUMBER = re.compile(
 )
 
 
-def read_number(text: str, unit: str) -> float:
-    """Read a number, with or without a unit, and convert it to SI.
-
-    Without a unit it is taken as SI. `unit` is an SI unit of the quantity expected. Raises
-    ValueError if the text is not a finite number, or its unit measures another quantity.
-
-    >>> read_number("0.5 ns", "s"), read_number("1.1e-5", "m")
-    (5e-10, 1.1e-05)
-    """
+def _number_and_unit(text: str, unit: str) -> tuple[str, str]:
+    """Return a number and its unit, or "1"; raises ValueError as `read_number` does."""
     text = text.replace("\N{MINUS SIGN}", "-")  # word processors replace hyphens by it
     match = _NUMBER.fullmatch(text.strip()) if len(text) < 400 else None
     if match is None:
@@ -153,10 +162,35 @@ def read_number(text: str, unit: str) -> float:
     if given_unit and not same_dimension(given_unit, unit):
         mismatch = f"{given_unit} does not measure what {unit} does"
         raise ValueError(f"{text!r}: {'give no unit' if unit == '1' else mismatch}")
+    return match["number"], given_unit or "1"
+
+
+def read_number(text: str, unit: str) -> float:
+    """Read a number, with or without a unit, and convert it to SI.
+
+    Without a unit it is taken as SI. `unit` is an SI unit of the quantity expected. Raises
+    ValueError if the text is not a finite number, or its unit measures another quantity.
+
+    >>> read_number("0.5 ns", "s"), read_number("1.1e-5", "m")
+    (5e-10, 1.1e-05)
+    """
+    number, given_unit = _number_and_unit(text, unit)
     try:
-        return float(Fraction(match["number"]) * to_si(given_unit or "1"))
+        return float(Fraction(number) * to_si(given_unit))
     except OverflowError as error:
         raise ValueError(f"{quoted(text)} is not a finite number that a double can hold") from error
+
+
+def read_printed(text: str, unit: str) -> Interval:
+    """Read a number, with or without a unit, as printed text: all values (SI) that print like it.
+
+    The last digit is taken as significant, a zero, too. `unit` and errors are as for `read_number`.
+
+    >>> print(read_printed("3.3 um", "m"), read_printed("700 MPa", "Pa"))
+    [3.25E-6, 3.35E-6) [6.995E+8, 7.005E+8)
+    """
+    number, given_unit = _number_and_unit(text, unit)
+    return parse(number).interval().scaled(to_si(given_unit))
 
 
 def read_numbers(table: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, float]:

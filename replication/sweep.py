@@ -18,11 +18,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from reference.scheme import Scheme
 from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
 from replication.models.estimates import particle_velocity
 from replication.models.impact import Impact, InputError, check, particle_mass
-from replication.models.sheet import check_scheme
 from replication.reading import check_keys, place, quoted, read_number, read_numbers, tables_of
 from spreadsheets.safely import check_target, draft_of
 
@@ -89,7 +89,7 @@ class Plan:
     by_mass: Mapping[str, float] | None
     samples: int
     seed: int
-    scheme: str
+    scheme: Scheme
     extras: tuple[str, ...]
     digest: str
 
@@ -199,7 +199,7 @@ def read_plan(path: Path) -> Plan:
             if not isinstance(asked, list) or any(extra not in [*EXTRAS] for extra in asked):
                 known = ", ".join(EXTRAS)
                 raise ValueError(f"outputs must be a list of {known}; the depths always come")
-            check_scheme(scheme := settings.get("scheme", "published"))
+            scheme = Scheme(settings.get("scheme", Scheme.PUBLISHED))
             samples, seed = _sampling(settings, any("distribution" in way for way in ways))
         with place("[inputs]"):
             sources, by_mass = _sources(table, CASES[name])

@@ -186,3 +186,25 @@ def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:
         ]
         lines += aligned([*zip_longest(*cells, fillvalue="")], widths) or [""]
     return "\n".join(lines)
+
+
+def table_text(table: Table, width: int) -> str:
+    """Write a table, without its caption, so that it fits a width and no word of it is broken.
+
+    Where the words are too long for columns side by side, each row becomes a list: one line for
+    each cell, with the head of its column before it.
+
+    >>> print(table_text(Table("", ("what", "id"), [("depth", "depth-beta-5")]), 18))
+    what  depth
+    id    depth-beta-5
+    """
+    rows = [table.heads, *table.rows]
+    longest = [max(len(word) for cell in cells for word in [*cell.split(), ""])
+               for cells in zip(*rows, strict=True)]  # fmt: skip
+    if sum(longest) + 2 * (len(longest) - 1) <= width:
+        return columns(rows, width)
+    lists = (
+        columns([pair for pair in zip(table.heads, row, strict=True) if pair[1]], width)
+        for row in table.rows
+    )
+    return "\n\n".join(lists)

@@ -15,10 +15,12 @@ from typing import Any
 
 from reference.ledger import Convention, Ledger, load
 from reference.printed import Interval, Printed
+from reference.scheme import Scheme
 from reference.units import to_si
-from replication.audit.record import Record, Verdict, in_words
+from replication.audit.assessment import Verdict
+from replication.audit.record import Record
 from replication.cases import BETA_3, BETA_5
-from replication.error import COARSE, DIGITS, OFF_STOP, too_long
+from replication.error import COARSE, DIGITS, NOTES, OFF_STOP, too_long
 from replication.error import warnings as doubts_about
 from replication.error.ladder import error_order, ladder
 from replication.models import crater, depth, estimates
@@ -65,8 +67,8 @@ def build(
     """Build the workbook of a case; without a case, the report's own.
 
     The report's own has both of its cases, and what concerns only the report: the sheets with its
-    longer time step, the check of Table A-1, and the audit. scheme: one of `SCHEMES`. rows: how
-    many to prepare after row 0; by default twice as many as the longest case takes. record: the
+    longer time step, the check of Table A-1, and the audit. scheme: a `Scheme`, or its text. rows:
+    how many to prepare after row 0; by default twice as many as the longest case takes. record: the
     finished audit, which is made if it is needed but not given. Each input is rounded to a value
     that its cell can hold. Raises ValueError for an input outside of its limits, or too few rows.
 
@@ -105,7 +107,8 @@ def build(
         f"{page.name}: {doubt}"
         for page, sheet in runs
         if not page.coarse
-        for doubt in doubts_about(sheet).values()
+        for kind, doubt in doubts_about(sheet).items()
+        if kind not in NOTES
     ]
     bounds = [
         rounding_bound(s.steps, s.impact.velocity, s.rows[-1].time, s.final_depth) for s in computed
@@ -115,13 +118,13 @@ def build(
 
 def findings_of(record: Record, scheme: str, ledger: Ledger) -> Findings:
     """Return what the workbook shows of the audit, with the verdicts under the given scheme."""
-    convention = in_words(Convention(centered=scheme == "centered"))
+    convention = Convention(scheme=Scheme(scheme))
     verdicts, explanations = {}, {}
     for claim in record.claims:
         verdicts[claim.id], explanations[claim.id] = claim.verdict, claim.explanation
-        for judged in claim.otherwise:
-            if all(getattr(judged, key) == word for key, word in convention.items()):
-                verdicts[claim.id] = judged.verdict
+        for judgement in claim.as_printed.judgements if claim.as_printed else ():
+            if judgement.convention == convention:
+                verdicts[claim.id] = judgement.verdict
         if scheme != "published" and ledger.claims[claim.id].by_scheme:
             explanations[claim.id] = f"With the published scheme: {claim.explanation}"
     counts = Counter(verdicts.values())

@@ -1,9 +1,10 @@
-"""Settings and a fixture shared by all tests."""
+"""Settings, and the audit that all tests share."""
 
 import pytest
 from hypothesis import settings
 
-from replication.audit.audit import audit
+from reference.ledger import load
+from replication.audit.audit import Audit
 from replication.audit.record import Record
 
 # No deadline: a test must not depend on the speed of the machine.
@@ -14,6 +15,12 @@ settings.load_profile("unhurried")
 
 
 @pytest.fixture(scope="session")
-def record() -> Record:
-    """The audit of the report."""
-    return audit()
+def audit() -> Audit:
+    """The audit of the report, which keeps what it has judged; one for each worker."""
+    return Audit(load())
+
+
+@pytest.fixture(scope="session")
+def record(audit: Audit) -> Record:
+    """The record of the audit."""
+    return audit.record()

@@ -1,51 +1,55 @@
 """The audit: every verdict, explanation and finding, put together as one record."""
 
 import sys
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property, partial
 from hashlib import sha256
 from importlib import metadata, resources
 from itertools import product
-from math import inf, isclose, nextafter
-from types import SimpleNamespace
+from math import isclose
 from typing import Any
 
 from msgspec.structs import replace
 
-from reference import findings as asserted
 from reference import ledger as ledgers
-from reference.arithmetic import Floats
-from reference.equations import MATHML, PLAIN, NoValueError, evaluate, rendered
+from reference.arithmetic import Floats, Rationals
+from reference.equations import MATHML, PLAIN, Equations, NoValueError, evaluate, rendered
 from reference.ledger import INFERRED, Claim, Convention, Ledger
+from reference.scheme import Scheme
 from reference.units import to_si
 from replication.audit import comparison, wording
 from replication.audit import record as r
-from replication.audit.findings import Evidence, Results
-from replication.audit.record import Verdict
-from replication.audit.verdict import Judgement, Reading
-from replication.models import sheet
+from replication.audit.assessment import Verdict
+from replication.audit.findings import findings
+from replication.audit.results import Results
 from replication.text import number, powers_of_ten
 
 
-def audit(ledger: Ledger | None = None) -> r.Record:
-    """Audit every number and equation of the report, or of a ledger with planted misprints."""
-    return Audit(ledger or ledgers.load()).record()
+def audit(
+    ledger: Ledger | None = None, progress: Callable[[Iterable[str]], Iterable[str]] = iter
+) -> r.Record:
+    """Audit every number and equation of the report, or of a ledger with planted misprints.
+
+    `progress` wraps the iteration over the claims' ids, such as in a progress bar.
+    """
+    return Audit(ledger or ledgers.load()).record(progress)
 
 
 class Audit(Results):
     """The audit of one ledger: turns its results into records."""
 
-    def record(self) -> r.Record:
-        """Return the finished audit as data."""
-        claims = [self.claim(claim) for claim in self.ledger.claims.values()]
-        equations = [self._equation(name) for name in self.ledger.equations]
-        findings = [Evidence(self, finding).record() for finding in asserted.load().values()]
-        headline = next(finding for finding in findings if finding.kind == "headline")
+    def record(self, progress: Callable[[Iterable[str]], Iterable[str]] = iter) -> r.Record:
+        """Return the finished audit; `progress` wraps the iteration over the ids of claims."""
+        claims = [self.claim(name) for name in progress(self.ledger.claims)]
+        equations = [self.equation(name) for name in self.ledger.equations]
+        headline, *others = findings(self)
         verdicts = {c.id: c.verdict for c in claims} | {e.id: e.verdict for e in equations}
         failing = [name for name, verdict in verdicts.items() if verdict.is_failure]
         counts = self._counts(claims, equations)
         count = "1 number fails." if counts.failing == 1 else f"{counts.failing} numbers fail."
-        inferred = product(self.ledger.inferred, sheet.SCHEMES)
+        inferred = product(self.ledger.inferred, Scheme)
         return r.Record(
             schema=r.SCHEMA,
             headline=headline.statement if headline.holds else count,
@@ -56,8 +60,8 @@ class Audit(Results):
             failing=failing,
             claims=claims,
             equations=equations,
-            findings=[finding for finding in findings if finding is not headline],
-            inferred=[self._inferred(*pair) for pair in inferred],
+            findings=others,
+            inferred=[self.inferred(*pair) for pair in inferred],
             approaches=comparison.approaches(self),
             sensitivity=comparison.sensitivity(self),
             scatter=comparison.scatter(self),
@@ -66,15 +70,15 @@ class Audit(Results):
             ladders=comparison.ladders(self),
             blank_cells=list(self.ledger.blank),
             symbols={symbol.shown: symbol.means for symbol in self.ledger.symbols.values()},
-            provenance=_provenance(),
+            provenance=provenance(),
         )
 
     @staticmethod
     def _counts(claims: list[r.ClaimRecord], equations: list[r.EquationRecord]) -> r.Counts:
         reproduced = [claim for claim in claims if claim.verdict == Verdict.REPRODUCED]
-        computed = [(c.reference, c.unit) for c in reproduced if c.reference is not None]
+        computed = [(c.as_printed.reference, c.claim.unit) for c in reproduced if c.as_printed]
         values = {float(Fraction(digits) * to_si(unit)) for digits, unit in computed}
-        remarks = sum(claim.kind in ("remark", "comparison") for claim in claims)
+        remarks = sum(record.claim.kind in ("remark", "comparison") for record in claims)
         return r.Counts(
             entries=len(claims),
             numbers=len(claims) - remarks,
@@ -91,79 +95,55 @@ class Audit(Results):
 
     # Claims
 
-    def claim(self, claim: Claim) -> r.ClaimRecord:
-        """Return the record of one claim."""
-        assessment = self.assessment(claim)
-        readings = [self._reading(claim, reading) for reading in assessment.readings]
-        as_printed, *others = readings or [_NO_READING]
-        is_open = assessment.verdict.is_open
-        interval = None if claim.printed is None and claim.bound is None else claim.interval()
-        ends = interval and (interval.lower, interval.upper)
-        return r.filled(
-            r.ClaimRecord,
-            *(claim, claim.place, as_printed),
-            cell=claim.cell,
-            where=str(claim.place),
-            quote=" ".join(claim.quote.split()),
-            printed=claim.text,
-            interval=ends and tuple(end if end is None else float(end) for end in ends),
-            interval_exact=ends and tuple(end if end is None else str(end) for end in ends),
-            interval_text=str(interval) if interval else None,
-            verdict=assessment.verdict,
-            restates=claim.inputs.get("value", (None,))[0] if claim.restates else None,
-            error_in_last_digit=_error(claim, as_printed.computed),
-            readings=others,
-            rests_on={name: list(entries) for name, entries in claim.inputs.items()},
-            assumes=wording.assumptions(self.judge, claim, as_printed.computed),
-            explanation=assessment.reason,
-            **self._worked(claim, as_printed.computed),
-            shown_by=self.shown(claim),
-            sources=self.sources(claim.id),
+    def claim(self, name: str) -> r.ClaimRecord:
+        """Return the record of one claim, by its id. Raises KeyError if there is none.
+
+        >>> Audit(ledgers.load()).claim("depth-beta-5").verdict.value
+        'reproduced'
+        """
+        claim = self.ledger.claims[name]
+        assessment = self.judge.assess(claim)
+        computed = assessment.readings[0].computed if assessment.readings else None
+        is_open, is_computed = assessment.verdict.is_open, computed is not None
+        return r.ClaimRecord(
+            claim=claim,
+            assessment=assessment,
+            explanation=wording.explanation(self.judge, claim, assessment),
+            scopes=[wording.scope(claim, reading) for reading in assessment.readings],
+            assumes=wording.assumptions(self.judge, claim, computed),
+            error_in_last_digit=_error(claim, computed),
+            worked=self._worked(claim, computed),
+            confirmed_range=self.judge.confirmed_range(claim),
+            sources=self.judge.sources(name),
             figures=comparison.figures(self) if claim.kind == "remark" else [],
-            back_solved=self.explainer.back_solved(claim) if is_open and readings else [],
-            repairs=self.explainer.repairs(claim.id) if is_open else [],
-            slips=self.explainer.slips(claim) if is_open and readings else [],
+            back_solved=self.explainer.back_solved(claim) if is_open and is_computed else [],
+            repairs=self.explainer.repairs(name) if is_open else [],
+            slips=self.explainer.slips(claim) if is_open and is_computed else [],
         )
 
-    @staticmethod
-    def _reading(claim: Claim, reading: Reading) -> r.ReadingRecord:
-        judgement = reading.judgements[0]
-        witness = {name: float(value) for name, value in (judgement.witness or {}).items()}
-        return r.filled(
-            r.ReadingRecord,
-            reading,
-            **_proven(judgement),
-            witness=witness or None,
-            holds=wording.holds(claim, reading),
-            otherwise=[
-                r.Judged(verdict=j.verdict, **r.in_words(j.convention), **_proven(j))
-                for j in reading.otherwise
-            ],
-        )
-
-    def _worked(self, claim: Claim, computed: float | None) -> dict[str, str | None]:
+    def _worked(self, claim: Claim, computed: float | None) -> r.Worked | None:
         """Return a claim's formula with its numbers put in, its equation, and the steps by hand.
 
-        All are None unless the claim is not reproduced and an equation of the report gives it.
+        None unless the claim is not reproduced and an equation of the report gives it.
         """
-        nothing = dict.fromkeys(("formula", "mathml", "by_hand"))
-        premises = claim.computation.premises if claim.computation else {}
-        wrong = self.assessment(claim).verdict is Verdict.NOT_REPRODUCED
-        if computed is None or not wrong or not premises:
-            return nothing
-        *_, premise = premises.values()  # the last may give the value itself
-        *_, right = sides = self.ledger.sides[premise.equation]
-        values = {"D": Fraction(1)}  # the ledger gives L in diameters
-        for symbol, text in premise.put.items():
-            if len(names := claim.inputs.get(text, ())) == 1:
-                values[symbol] = self.judge.value(*names)
+        wrong = self.judge.assess(claim).verdict is Verdict.NOT_REPRODUCED
+        if computed is None or not wrong or not claim.uses:
+            return None
+        equations = _Evaluations(self.ledger.sides)
+        compute = self.ledger.function(claim, equations=equations)
+        with suppress(ArithmeticError):  # the value itself may be irrational
+            compute(Rationals(), **{entry: self.judge.value(entry) for entry in claim.entries})
+        if equations.last is None:
+            return None
+        equation, values = equations.last  # which may give the value itself
+        *_, right = sides = self.ledger.sides[equation]
         doubles = {key: float(value) for key, value in values.items()}
         value_of = partial(evaluate, ar=Floats(), values=doubles)
         try:
             if not isclose(value_of(right), computed, rel_tol=1e-9):
-                return nothing
+                return None
         except NoValueError:
-            return nothing
+            return None
         put_in = self._symbols | {key: _short(value) for key, value in values.items()}
         with_numbers = partial(rendered, shown=put_in, notation=_NUMBERS)
         factors = right.parts if right.kind == "product" else (right,)
@@ -172,11 +152,11 @@ class Audit(Results):
         if len(steps) > 1:
             steps.append(f"{' · '.join(texts)} = {result}")
         in_symbols = (rendered(side, self._symbols) for side in sides)
-        return {
-            "formula": " = ".join((*in_symbols, with_numbers(right), result)),
-            "mathml": self._mathml(premise.equation),
-            "by_hand": f"{'; '.join(steps)}.",
-        }
+        return r.Worked(
+            formula=" = ".join((*in_symbols, with_numbers(right), result)),
+            mathml=self._mathml(equation),
+            by_hand=f"{'; '.join(steps)}.",
+        )
 
     @cached_property
     def _symbols(self) -> dict[str, str]:
@@ -189,48 +169,54 @@ class Audit(Results):
 
     # Equations and inferred inputs
 
-    def _equation(self, name: str) -> r.EquationRecord:
-        assessed = self.equation(name)
-        place = assessed.equation.place
-        return r.filled(
-            r.EquationRecord,
-            *(assessed.equation, assessed),
-            number=place.equation,
-            where=str(place),
+    def equation(self, name: str) -> r.EquationRecord:
+        """Return the record of one equation, by its id. Raises KeyError if there is none.
+
+        >>> Audit(ledgers.load()).equation("eq16").assessment.factor
+        Fraction(1, 2)
+        """
+        assessed = self.judge.assess_equation(name)
+        return r.EquationRecord(
+            assessment=assessed,
             text=self.ledger.printed_text(name),
             mathml=self._mathml(name),
-            factor=None if assessed.factor is None else str(assessed.factor),
-            constants=list(assessed.constants.values()),
             explanation=wording.equation_explanation(self.ledger, assessed),
             repairs=self.explainer.repairs(name) if assessed.verdict.is_failure else [],
         )
 
-    def _inferred(self, name: str, scheme: str) -> r.InferredRecord:
-        centered = scheme == "centered"
-        inference = self.judge.inference(INFERRED + name, centered=centered)
-        entry, si = inference.entry, 1 / to_si(inference.entry.unit)
-        inner = inference.inner.scaled(si).ends
-        rounded = None if centered else inference.admitted(Convention())
-        return r.filled(
-            r.InferredRecord,
-            entry,
+    def inferred(self, name: str, scheme: Scheme) -> r.InferredRecord:
+        """Return what the evidence admits of an input that the report does not print."""
+        is_usual = scheme is Scheme.PUBLISHED
+        inference = self.judge.inference(INFERRED + name, scheme=scheme)
+        si = 1 / to_si(inference.entry.unit)
+        rounded = inference.admitted(Convention()) if is_usual else None
+        return r.InferredRecord(
             id=name,
+            entry=inference.entry,
             scheme=scheme,
             assumed=float(self.judge.value(INFERRED + name) * si),
-            interval=_doubles(*inner, inward=True),
-            interval_exact=(str(inner[0]), str(inner[1])),
-            with_printed_mass=_doubles(*inference.with_mass.scaled(si).ends, inward=True),
-            possible_with_rounded_inputs=rounded and _doubles(*rounded.scaled(si).ends),
-            evidence=list(inference.agreeing),
-            odd=list(inference.odd),
-            sources=[] if centered else self.sources(INFERRED + name),
+            interval=inference.inner.scaled(si).ends,
+            with_printed_mass=inference.with_mass.scaled(si).ends,
+            possible_with_rounded_inputs=None if rounded is None else rounded.scaled(si).ends,
+            evidence=inference.agreeing,
+            odd=inference.odd,
+            sources=self.judge.sources(INFERRED + name) if is_usual else [],
         )
 
 
-_NO_READING: Any = SimpleNamespace(
-    **{**dict.fromkeys(r.ReadingRecord.__struct_fields__), "holds": "", "otherwise": []}
-)
-"""The reading of a claim that no computation gives."""
+class _Evaluations(Equations):
+    """The printed equations, with the last one that was evaluated and its symbols' values."""
+
+    last: tuple[str, Mapping[str, Fraction]] | None = None
+
+    def __getitem__(self, name: str) -> Callable[..., Any]:
+        evaluated = super().__getitem__(name)
+
+        def remembered(ar: Any, **symbols: Any) -> Any:
+            self.last = name, {symbol: Fraction(value) for symbol, value in symbols.items()}
+            return evaluated(ar, **symbols)
+
+        return remembered
 
 
 def _short(value: Fraction) -> str:
@@ -255,35 +241,24 @@ def _error(claim: Claim, computed: float | None) -> float | None:
     return float((Fraction(computed) - printed.value) / quantum)
 
 
-def _proven(judgement: Judgement) -> dict[str, Any]:
-    """Return the fields for a proven range: as doubles, never narrower, and exactly."""
-    return {
-        "enclosure": _doubles(*judgement.ends),
-        "enclosure_exact": tuple(map(str, judgement.ends)),
-    }
+LIBRARIES = "coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter"
+"""The distributions whose versions may change a byte of the files."""
 
 
-def _doubles(lower: Fraction, upper: Fraction, inward: bool = False) -> tuple[float, float]:
-    """Round the ends to doubles so that the interval never narrows, or if `inward` never widens."""
-    if inward:
-        return -_down(-lower), _down(upper)
-    return _down(lower), -_down(-upper)
+def provenance() -> dict[str, Any]:
+    """Return the versions of the programs in use and the hashes of the files that were read.
 
-
-def _down(value: Fraction) -> float:
-    """Return the greatest double that is not above the value."""
-    double = float(value)
-    return nextafter(double, -inf) if Fraction(double) > value else double
-
-
-def _provenance() -> dict[str, object]:
-    """Return the versions of the programs in use and the hashes of the files that were read."""
+    A library that is not installed is left out, as an audit without its files can do without some.
+    """
     folder = resources.files("reference") / "report"
-    libraries = ("coldspray", "Jinja2", "msgspec", "mpmath", "python-flint", "XlsxWriter")
-    files = ("de_rosset_2006.txt", "ledger.toml", "findings.toml", "sources.toml")
+    versions = {}
+    for name in LIBRARIES:
+        with suppress(metadata.PackageNotFoundError):
+            versions[name] = metadata.version(name)
+    files = ("de_rosset_2006.txt", "ledger.toml", "sources.toml")
     return {
         "command": "coldspray audit",
         "python": ".".join(map(str, sys.version_info[:3])),
-        "versions": {name: metadata.version(name) for name in libraries},
+        "versions": versions,
         "sha256": {name: sha256((folder / name).read_bytes()).hexdigest() for name in files},
     }

@@ -14,8 +14,9 @@ from statistics import NormalDist
 from typing import Any, TypeVar
 
 from reference.ledger import Convention
+from reference.scheme import Scheme
 from replication.audit import record as r
-from replication.audit.findings import DENSITY, DERIVED, Results, case, exact_ratio
+from replication.audit.results import DENSITY, DERIVED, Results, case, exact_ratio
 from replication.models import depth, motion, sheet
 from replication.models.crater import crater_depth, depth_from_volume_ratio
 from replication.models.impact import InputError
@@ -48,7 +49,7 @@ def approaches(results: Results) -> list[r.Approach]:
     def approach(kind: str, name: str, claim: str = "", *computation: Any) -> r.Approach:
         return r.Approach(
             kind=kind, name=name, computed=_value(*computation) if computation else None,
-            claim=claim or None, printed=claims[claim].shown if claim else "",
+            claim=claim or None, shown=claims[claim].shown if claim else "",
         )  # fmt: skip
 
     def in_sheet(beta: int) -> float:
@@ -87,12 +88,12 @@ def approaches(results: Results) -> list[r.Approach]:
 def figures(results: Results) -> list[r.Figure]:
     """Return the figures to judge the remark by: final depths at both steps, in both schemes."""
 
-    def final_depth(beta: int, scheme: str, step: str) -> float:
+    def final_depth(beta: int, scheme: Scheme, step: str) -> float:
         return sheet.run(case(results, beta, step=results[step]), scheme).final_depth
 
     figures = []
-    for beta, (scheme, (_, drag_at)) in product(BETAS, sheet.SCHEMES.items()):
-        case_words = f"beta = {beta}, drag at the {drag_at} velocity"
+    for beta, scheme in product(BETAS, Scheme):
+        case_words = f"beta = {beta}, drag at the {scheme.drag_at} velocity"
         depths = []
         for step in ("a-step", "coarse-step"):
             step_words = quantity(results.ledger.claims[step].shown, "ns")
@@ -189,7 +190,7 @@ def scatter(results: Results) -> list[r.Scatter]:
         )  # fmt: skip
 
     laws = (
-        ("Eq. 1: mass alone", 1.5),
+        ("Eq. 1: mass alone", 3 * results["eq1-power"]),  # a mass grows with the diameter's cube
         ("drag on a sphere: mass and area", 0.5),
         ("as stated: normal", None),
     )
@@ -212,7 +213,7 @@ def curves(results: Results) -> list[r.Curve]:
         return r.Curve(
             beta=float(beta), sheet_time=[row.time for row in rows],
             sheet_depth=[row.depth for row in rows], exact_time=times, exact_depth=depths,
-            printed=results.ledger.claims[f"depth-beta-{beta}"].shown,
+            shown=results.ledger.claims[f"depth-beta-{beta}"].shown,
         )  # fmt: skip
 
     return _parts(curve, product(BETAS))
@@ -234,7 +235,7 @@ def velocity_curve(results: Results) -> r.VelocityCurve:
 def ladders(results: Results) -> list[r.Level]:
     """Return the sheet's error against its time step, halved repeatedly, in both schemes."""
 
-    def level(beta: int, scheme: str, k: int) -> r.Level:
+    def level(beta: int, scheme: Scheme, k: int) -> r.Level:
         impact = case(results, beta, step=results["a-step"] * 2.0**k)
         run, exact = sheet.run(impact, scheme), depth.final_depth(**impact.motion)
         return r.Level(
@@ -242,4 +243,4 @@ def ladders(results: Results) -> list[r.Level]:
             depth=run.final_depth, error=run.final_depth - exact,
         )  # fmt: skip
 
-    return _parts(level, product(BETAS, sheet.SCHEMES, range(4, -3, -1)))
+    return _parts(level, product(BETAS, Scheme, range(4, -3, -1)))

@@ -12,42 +12,16 @@ from functools import cache, cached_property
 from itertools import pairwise, product
 from string import digits
 
-from reference.arithmetic import Floats
+from msgspec.structs import replace
+
+from reference.derivations import premises_of
 from reference.enclosure import Solutions, enclose, solve
 from reference.ledger import INFERRED, Claim, Convention, Ledger
 from reference.printed import parse
+from reference.slips import SLIPS
 from reference.units import to_si
-from replication.audit.record import BackSolvedRecord, Proof, RepairRecord, Shown, SlipRecord
-from replication.audit.verdict import Judge, follows, is_consistent
-
-# A check in doubles
-
-_CLOSE = Fraction(1, 10**9)
-"""The largest relative difference at which a double agrees with an exact number, such as 2/3."""
-
-Values = Mapping[str, Fraction]
-"""Values of some entries (SI) in place of the printed ones."""
-
-
-def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> bool:
-    """Return whether a claim agrees with its computation, in doubles, some entries changed."""
-    if claim.restates:
-        return is_consistent(ledger, claim)
-    target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
-    inputs = {name: float(changed.get(name, value)) for name, value in values.items()}
-    try:
-        value = Fraction(ledger.function(claim, reading=reading)(Floats(), **inputs))
-    except (ArithmeticError, ValueError, TypeError):
-        return False  # these inputs give no result, or only a complex one
-    if target.is_point and target.lower is not None:
-        return abs(value - target.lower) <= _CLOSE * abs(target.lower)
-    return target.contains(value)
-
-
-def disagreeing(ledger: Ledger, names: Iterable[str], changed: Values) -> set[str]:
-    """Return which of the claims disagree with their computations, some entries changed."""
-    claims = (ledger.claims[name] for name in names)
-    return {c.id for c in claims if c.computation is not None and not agrees(ledger, c, changed)}
+from replication.audit.record import BackSolved, Proof, Repair, TriedSlip
+from replication.audit.verdict import Judge, Values, agrees, disagreeing, follows
 
 
 def dependents(ledger: Ledger, name: str) -> set[str]:
@@ -86,7 +60,7 @@ class Explainer:
 
     # Single inputs
 
-    def back_solved(self, claim: Claim) -> list[BackSolvedRecord]:
+    def back_solved(self, claim: Claim) -> list[BackSolved]:
         """Return, for every reading and input, the values of this input that give the number."""
         ledger, records = self.ledger, []
         for reading, name in product(claim.computations, claim.entries):
@@ -100,12 +74,12 @@ class Explainer:
             si, spans = to_si(unit), (solutions.search, *solutions.inner)
             search, *intervals = [(float(low / si), float(high / si)) for low, high in spans]
             records.append(
-                BackSolvedRecord(
+                BackSolved(
                     reading=reading,
                     entry=name,
                     title=ledger.title(name),
                     unit=unit,
-                    printed=float(self.judge.value(name) / si),
+                    as_printed=float(self.judge.value(name) / si),
                     intervals=intervals,
                     search=search,
                     search_reason=ledger.search(name)[2],
@@ -122,31 +96,9 @@ class Explainer:
         budget = SHEET_BUDGET if claim.by_whole_sheet else _BUDGET
         return solve(function, name, (low, high), claim.target(), budget, others)
 
-    def shown(self, chosen: Claim) -> Shown | None:
-        """Return the range around a chosen number for which the claims that confirm it agree.
-
-        Its ends are found by bisection, in doubles. It is None if no claim confirms the number, or
-        if one of them disagrees with it.
-        """
-        if not chosen.shown_by or not self._is_confirmed(chosen, chosen.value):
-            return None
-        ends = []
-        for limit in self.ledger.search(chosen.id)[:2]:
-            good, bad = chosen.value, limit
-            for _ in range(_BISECTIONS):
-                middle = (good + bad) / 2
-                good, bad = (middle, bad) if self._is_confirmed(chosen, middle) else (good, middle)
-            ends.append(float(good / chosen.si))
-        return Shown(claims=list(chosen.shown_by), interval=(ends[0], ends[1]), unit=chosen.unit)
-
-    def _is_confirmed(self, chosen: Claim, value: Fraction) -> bool:
-        """Return whether all claims that confirm a number agree with this value (SI) of it."""
-        ledger, changed = self.ledger, {**self.judge.assumed, chosen.id: value}
-        return all(agrees(ledger, ledger.claims[name], changed) for name in chosen.shown_by)
-
     # Misprints
 
-    def repairs(self, name: str) -> list[RepairRecord]:
+    def repairs(self, name: str) -> list[Repair]:
         """Return the one-edit corrections that make a claim or an equation agree, likeliest first.
 
         The fewer claims fail with a repair, the likelier it is; among equals, the likelier typing
@@ -155,7 +107,7 @@ class Explainer:
         name = self.ledger.equation_of(name) or name
         return self._repairs(name, self._suspects(name))
 
-    def _repairs(self, name: str, entries: Iterable[str]) -> list[RepairRecord]:
+    def _repairs(self, name: str, entries: Iterable[str]) -> list[Repair]:
         """Return the edits of these entries that make a claim agree, likeliest first."""
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
         repairs = [repair for entry in entries for repair in self._repairs_by(name, entry)]
@@ -164,17 +116,17 @@ class Explainer:
         ))  # fmt: skip
         return repairs[:_SHOWN]
 
-    def _edited(self, name: str, entry: str) -> list[RepairRecord]:
+    def _edited(self, name: str, entry: str) -> list[Repair]:
         repairs = []
         for text, kind in edits_of(self.ledger, entry):
             changed = self.ledger.misprint(entry, text)
             if (reading := self._agreeing(name, entry, changed)) is not None:
                 repairs.append(
-                    RepairRecord(
+                    Repair(
                         entry=entry,
                         title=self.ledger.title(entry),
                         reading=reading,
-                        printed=self.ledger.printed_text(entry),
+                        original=self.ledger.printed_text(entry),
                         text=text,
                         kind=kind,
                         failing=sorted(self._failing(entry, changed)),
@@ -186,8 +138,7 @@ class Explainer:
         """Return what may be misprinted: it, its inputs, its equations and their constants."""
         ledger = self.ledger
         if name in ledger.equations:
-            premises = ledger.equations[name].premises.values()
-            suspects = equations = {name, *(premise.equation for premise in premises)}
+            suspects = equations = {name, *premises_of(name)}
         else:
             claim = ledger.claims[name]
             equations = set(claim.uses)
@@ -211,7 +162,7 @@ class Explainer:
         if claim.computation is not None:
             pairs = product(claim.computations, self._alternatives)
             return next((r for r, values in pairs if agrees(changed, claim, values, r)), None)
-        if entry != name or not self._is_confirmed(claim, claim.value):
+        if entry != name or not self.judge.is_confirmed(claim, claim.value):
             return None
         sourced = not sources or any(claim.target().meets(s.interval) for s in sources)
         return "" if sourced else None
@@ -235,7 +186,7 @@ class Explainer:
 
     # One misprint behind several failures
 
-    def ranked(self, names: Collection[str]) -> list[RepairRecord]:
+    def ranked(self, names: Collection[str]) -> list[Repair]:
         """Return the repairs that may explain several failures at once, likeliest first.
 
         A misprint behind all of them is in an entry that all depend on, so only such entries are
@@ -258,37 +209,31 @@ class Explainer:
             return 2 if self.ledger.equation_of(name) else 0, name
         return 1 + 2 * claim.by_scheme + claim.by_whole_sheet, name
 
-    def culprit(self, names: Collection[str]) -> RepairRecord | None:
+    def culprit(self, names: Collection[str]) -> Repair | None:
         """Return the one repair with which nothing fails, if several claims fail now."""
         repairs = self.ranked(names) if len(names) > 1 else []
         return repairs[0] if repairs and not repairs[0].failing else None
 
     # Slips
 
-    def slips(self, claim: Claim) -> list[SlipRecord]:
-        """Return what each slip of the author's that the ledger lists would give for a claim."""
+    def slips(self, claim: Claim) -> list[TriedSlip]:
+        """Return what each slip that the author may have made would give for a claim."""
         target, rounded, records = claim.target(), Convention(choices_exact=False), []
-        for slip in (slip for slip in self.ledger.slip if slip.equation in claim.uses):
-            ledger = self.ledger
-            if slip.text is not None:
-                ledger = ledger.misprint(slip.equation, slip.text)
-            inputs = {key: name for key, name in slip.inputs.items() if key in claim.inputs}
-            changed = claim.resting_on(**inputs)
-            function = ledger.function(changed)
+        for slip in (slip for slip in SLIPS if slip.equation in claim.uses):
+            changed = replace(claim.resting_on(**slip.inputs), computations={"": slip.computation})
+            function = self.ledger.function(changed)
             value, fits = None, ""
             with suppress(ArithmeticError):  # misprinted inputs may give no finite value
-                at_print = enclose(function, self.judge.printed(changed)).ends
+                at_print = enclose(function, self.judge.inputs_as_printed(changed)).ends
                 value, fits = float(at_print[0] / claim.si), "not excluded within rounding"
                 if target.encloses(*at_print):
                     fits = "as printed"
-                elif target.excludes(*enclose(function, self.judge.box(changed, rounded)).ends):
-                    fits = ""
-            records.append(SlipRecord(name=slip.name, reason=slip.reason, value=value, fits=fits))
+                else:
+                    within = enclose(function, self.judge.inputs_as_rounded(changed, rounded)).ends
+                    fits = "" if target.excludes(*within) else fits
+            records.append(TriedSlip(slip, value, fits))
         return records
 
-
-_BISECTIONS = 40
-"""This many narrow the search to 1e-12 of its width, which is finer than any page shows."""
 
 _BUDGET = 250
 """The most parts of a search; some 200 are needed for k_t, as the depth hardly depends on it."""

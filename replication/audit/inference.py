@@ -11,6 +11,7 @@ from reference.arithmetic import Arithmetic, Function, Number
 from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, satisfying, solve
 from reference.ledger import INFERRED, Convention, Ledger
 from reference.printed import Interval, Rounding
+from reference.scheme import Scheme
 
 
 class Admission(Enum):
@@ -43,18 +44,19 @@ class Inference:
         ledger: Ledger,
         name: str,
         *,
-        centered: bool = False,
+        scheme: Scheme = Scheme.PUBLISHED,
         rounding: Rounding = Rounding.AWAY,
         by_mass: bool = False,
     ) -> None:
-        self.ledger, self.name, self.centered, self.rounding = ledger, name, centered, rounding
+        self.ledger, self.name, self.scheme, self.rounding = ledger, name, scheme, rounding
         self.entry = ledger.inferred[name.removeprefix(INFERRED)]
         self.rounded, self.admitted = cache(self._rounded), cache(self._admitted)
+        self.admits = cache(self._admits)
         self.by_claim: dict[str, Solutions] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
             printed = {key: ledger.value(key) for key in resting.entries if key != name}
-            function, search = ledger.function(resting, centered=centered), self.entry.search
+            function, search = ledger.function(resting, scheme=scheme), self.entry.search
             target = claim.target(rounding)
             self.by_claim[claim.id] = solve(function, name, search, target, others=printed)
         values = sorted({low for own in self.by_claim.values() for low, _ in own.inner})
@@ -72,7 +74,7 @@ class Inference:
     def with_mass(self) -> Interval:
         """`inner` if the particle mass is the printed one."""
         return Inference(
-            self.ledger, self.name, centered=self.centered, rounding=self.rounding, by_mass=True
+            self.ledger, self.name, scheme=self.scheme, rounding=self.rounding, by_mass=True
         ).inner
 
     def _admitted(self, convention: Convention) -> Interval:
@@ -114,8 +116,7 @@ class Inference:
         evidence = [claims[key] for key in (*entry.header, *self.agreeing)]
         names = {name for claim in evidence for name in claim.entries} - {self.name}
         constraints: list[Constraint] = [
-            (self.ledger.function(claim, centered=self.centered), claim.target())
-            for claim in evidence
+            (self.ledger.function(claim, scheme=self.scheme), claim.target()) for claim in evidence
         ]
         constraints += also
         if not convention.header_exact:
@@ -138,7 +139,7 @@ class Inference:
 
         return by_mass
 
-    def admits(self, value: Fraction, range_: Interval) -> Admission:
+    def _admits(self, value: Fraction, range_: Interval) -> Admission:
         """Return whether the evidence admits a source's value, or the range that prints like it."""
         if self.inner.contains(value):
             return Admission.ADMITTED
@@ -148,7 +149,12 @@ class Inference:
             (Admission.HEADER_ROUNDED, Convention()),
             (Admission.CHOICES_ROUNDED, Convention(choices_exact=False)),
         ):
-            admitted, _ = satisfying(*self.joint(convention, {self.name: range_.ends}))
+            (low, high), (least, greatest) = range_.ends, self.admitted(convention).ends
+            if high < least or greatest < low:
+                continue
+            # The bounds hold for each piece of evidence by itself, and may admit too much.
+            within = max(low, least), min(high, greatest)
+            admitted, _ = satisfying(*self.joint(convention, {self.name: within}))
             if admitted is not False:
                 return admission if admitted else Admission.UNDECIDED
         return Admission.EXCLUDED

@@ -1,107 +1,45 @@
-"""The record of a finished audit: everything that any report shows, as plain typed data.
+"""The record of a finished audit: everything that any page or file shows.
 
-`audit.json` is this record, key by key, and its JSON Schema is generated from these classes.
-Reports render the record and compute nothing. Values are in SI units unless the class has a `unit`.
+A claim, an equation or an input is recorded with the ledger's entry and the judge's assessment
+themselves, beside what was found out about them. `replication.report.document` writes the record as
+`audit.json`. Reports render the record and compute nothing. Values are in SI units unless the class
+has a `unit`.
 """
 
+from collections.abc import Sequence
 from enum import StrEnum
-from typing import Any, TypeVar
+from typing import Any
 
 import msgspec
 
-from reference.ledger import Convention, Report
+from reference.enclosure import Ends
+from reference.ledger import Claim, Equation, Inferred, Report
+from reference.scheme import Scheme
+from reference.slips import Slip
+from replication.audit.assessment import (
+    Assessment,
+    Comparison,
+    ConfirmedRange,
+    EquationAssessment,
+    Reading,
+    Verdict,
+)
+from replication.reading import advice
+from replication.text import with_unit
 
 SCHEMA = "coldspray-audit-2"
-"""The name and version of this set of keys."""
-
-Ends = tuple[float | None, float | None]
-"""The lower and the upper end as doubles; null for an infinite end."""
-
-ExactEnds = tuple[str | None, str | None]
-"""The lower and the upper end as exact fractions, such as "1533/200"."""
-
-
-class Verdict(StrEnum):
-    """What the audit can conclude about a claim or an equation."""
-
-    REPRODUCED = "reproduced"
-    WITHIN_ROUNDING = "reproduced within input rounding"
-    NOT_REPRODUCED = "not reproduced"
-    UNDECIDED = "undecided"
-    CONSISTENT = "consistent"
-    INCONSISTENT = "inconsistent"
-    AGREES = "agrees with public sources"
-    DIFFERS = "differs from public sources"
-    REMARK = "remark, quantified"
-    NOT_CHECKABLE = "not checkable"
-
-    @property
-    def is_failure(self) -> bool:
-        """Whether the entry contradicts the rest of the report; `--exit-code` reports claims."""
-        return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
-
-    @property
-    def is_open(self) -> bool:
-        """Whether the inputs as printed do not give the entry: explanations are tried for these."""
-        return self.is_failure or self in (Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING)
-
-    @property
-    def is_doubtful(self) -> bool:
-        """Whether it is open or differs from public sources: `power` counts it as noticed."""
-        return self.is_open or self is Verdict.DIFFERS
+"""The name and version of the keys of `audit.json`."""
 
 
 class _Part(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A part of the record."""
 
 
-class Judged(_Part, frozen=True):
-    """A verdict under one convention.
-
-    `rounding` is the rule by which a value became the printed text. `choices` and `header` say
-    whether the values that the author chose, and the header of Table A-1, are taken as "exact" or
-    "rounded". `scheme` is "published" if the sheet takes the drag at the velocity at the start of a
-    step, "centered" if in its middle. `enclosure` is a range proven to contain the value: for the
-    inputs as printed if the verdict is "reproduced", else for all inputs that print like them.
-    Inferred inputs vary over all values that their evidence admits.
-    """
-
-    rounding: str
-    choices: str
-    header: str
-    scheme: str
-    verdict: Verdict
-    enclosure: Ends
-    enclosure_exact: ExactEnds
-
-
-def in_words(convention: Convention) -> dict[str, Any]:
-    """Return a convention as the fields of `Judged` that describe it."""
-    return {
-        "rounding": convention.rounding.value,
-        "choices": "exact" if convention.choices_exact else "rounded",
-        "header": "exact" if convention.header_exact else "rounded",
-        "scheme": "centered" if convention.centered else "published",
-    }
-
-
-class ReadingRecord(_Part, frozen=True):
-    """The value and the verdict that one reading of the report's words gives a claim."""
-
-    name: str
-    summary: str
-    verdict: Verdict
-    computed: float
-    reference: str
-    enclosure: Ends
-    enclosure_exact: ExactEnds
-    witness: dict[str, float] | None
-    holds: str
-    otherwise: list[Judged]
+# Explanations that were tried
 
 
 class Proof(StrEnum):
-    """What is proven about the intervals of a `BackSolvedRecord`."""
+    """What is proven about the intervals of a `BackSolved`."""
 
     INSIDE = "proven inside, and none beyond"
     TO_AN_END = "proven, up to an end of the range"
@@ -109,22 +47,22 @@ class Proof(StrEnum):
     UNDECIDED = "undecided"
 
 
-class BackSolvedRecord(_Part, frozen=True):
+class BackSolved(_Part, frozen=True):
     """The values of one input, all others as printed, for which the claim would agree."""
 
     reading: str
     entry: str
     title: str
     unit: str
-    printed: float
+    as_printed: float = msgspec.field(name="printed")
     intervals: list[tuple[float, float]]
     search: tuple[float, float]
     search_reason: str
     proof: Proof
 
 
-class RepairRecord(_Part, frozen=True):
-    """A correction of a printed text by one edit, with which the claim would agree.
+class Repair(_Part, frozen=True):
+    """A correction by one edit, `text` for the `original`, with which the claim would agree.
 
     `failing` are the claims and equations that would fail with it.
     """
@@ -132,33 +70,22 @@ class RepairRecord(_Part, frozen=True):
     entry: str
     title: str
     reading: str
-    printed: str
+    original: str = msgspec.field(name="printed")
     text: str
     kind: str
     failing: list[str]
 
 
-class SlipRecord(_Part, frozen=True):
-    """The value that a slip of the author's would give the claim; null where it gives none."""
+class TriedSlip(_Part, frozen=True):
+    """The value that a slip of the author's would give a claim; None where it gives none.
 
-    name: str
-    reason: str
+    `fits` says whether that prints like the claim: "as printed", perhaps for inputs that are
+    rounded, or not at all (empty).
+    """
+
+    slip: Slip
     value: float | None
     fits: str
-
-
-class SourceRecord(_Part, frozen=True):
-    """A public source for a claim or an inferred input, and how the two compare."""
-
-    id: str
-    title: str
-    address: str
-    quote: str
-    says: str
-    unit: str
-    applies: str
-    agrees: bool
-    outcome: str
 
 
 class Figure(_Part, frozen=True):
@@ -169,91 +96,134 @@ class Figure(_Part, frozen=True):
     unit: str
 
 
-class Shown(_Part, frozen=True):
-    """The range of a chosen number for which the claims computed from it agree."""
+# Claims, equations and inferred inputs
 
-    claims: list[str]
-    interval: tuple[float, float]
-    unit: str
+
+class Worked(_Part, frozen=True):
+    """A claim's equation with numbers put in, as MathML, and the steps by hand."""
+
+    formula: str
+    mathml: str
+    by_hand: str
 
 
 class ClaimRecord(_Part, frozen=True):
     """One printed number with its verdict and proof; values are in the claim's unit.
 
-    `computed` is a double, whose last digits may lie outside the proven `enclosure`.
+    `scopes` has for each reading a sentence on the conventions under which its verdict holds.
+    `error_in_last_digit` is the computed less the printed number, in units of its last digit. Where
+    the number fails, `worked` shows how it is calculated, and `back_solved`, `repairs` and `slips`
+    what might explain it. `figures` help to judge a remark.
     """
 
-    id: str
-    title: str
-    where: str
-    line: int
-    section: str
-    equation: str | None
-    cell: str | None
-    quote: str
-    printed: str
-    unit: str
-    kind: str
-    interval: Ends | None
-    interval_exact: ExactEnds | None
-    interval_text: str | None
-    verdict: Verdict
-    restates: str | None
-    computed_by: str | None
-    computed: float | None
-    reference: str | None
-    enclosure: Ends | None
-    enclosure_exact: ExactEnds | None
-    witness: dict[str, float] | None
-    error_in_last_digit: float | None
-    holds: str
-    otherwise: list[Judged]
-    readings: list[ReadingRecord]
-    rests_on: dict[str, list[str]]
-    assumes: list[str]
+    claim: Claim
+    assessment: Assessment
     explanation: str
-    formula: str | None
-    mathml: str | None
-    by_hand: str | None
-    shown_by: Shown | None
-    sources: list[SourceRecord]
-    figures: list[Figure]
-    back_solved: list[BackSolvedRecord]
-    repairs: list[RepairRecord]
-    slips: list[SlipRecord]
-    workbook: str | None
+    scopes: Sequence[str]
+    assumes: Sequence[str]
+    error_in_last_digit: float | None
+    worked: Worked | None
+    confirmed_range: ConfirmedRange | None
+    sources: Sequence[Comparison]
+    figures: Sequence[Figure]
+    back_solved: Sequence[BackSolved]
+    repairs: Sequence[Repair]
+    slips: Sequence[TriedSlip]
 
+    @property
+    def id(self) -> str:
+        """The claim's id in the ledger."""
+        return self.claim.id
 
-class ConstantRecord(_Part, frozen=True):
-    """The verdict on a constant of an equation; `needed` are the values that pass every check."""
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the claim."""
+        return self.assessment.verdict
 
-    claim: str
-    verdict: Verdict
-    needed: list[str]
+    @property
+    def as_printed(self) -> Reading | None:
+        """What the report's words give as printed; None if nothing is computed."""
+        return next(iter(self.assessment.readings), None)
+
+    @property
+    def computed(self) -> float | None:
+        """The value computed from the inputs as printed; its last digits may be off by roundoff."""
+        return None if self.as_printed is None else self.as_printed.computed
+
+    @property
+    def scope(self) -> str:
+        """Under which conventions the verdict holds; empty if nothing is computed."""
+        return next(iter(self.scopes), "")
+
+    def __repr__(self) -> str:
+        """A line; `msgspec.structs.asdict` has all fields."""
+        printed = with_unit(self.claim.text, self.claim.unit)
+        return f"<claim {self.id}: {printed}, {self.verdict}>"
+
+    @property
+    def restated(self) -> str | None:
+        """The id of the claim whose number this one repeats; None for any other claim."""
+        return self.claim.inputs.get("value", (None,))[0] if self.claim.restates else None
 
 
 class EquationRecord(_Part, frozen=True):
-    """One printed equation with its verdict."""
+    """One printed equation, its text with LaTeX markup and as MathML, with its verdict."""
 
-    id: str
-    number: str | None
-    title: str
-    where: str
+    assessment: EquationAssessment
     text: str
     mathml: str
-    kind: str
-    follows_from: str
-    verdict: Verdict
-    factor: str | None
-    constants: list[ConstantRecord]
     explanation: str
-    repairs: list[RepairRecord]
+    repairs: Sequence[Repair]
+
+    @property
+    def id(self) -> str:
+        """The equation's id in the ledger."""
+        return self.equation.id
+
+    @property
+    def equation(self) -> Equation:
+        """The ledger's entry."""
+        return self.assessment.equation
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict on the equation."""
+        return self.assessment.verdict
+
+    @property
+    def number(self) -> str | None:
+        """Its number in the report; None if it has none."""
+        return self.equation.place.equation
 
 
-class EvidenceRecord(_Part, frozen=True):
-    """A number in a finding's text, as asserted and as computed by this audit.
+class InferredRecord(_Part, frozen=True):
+    """An input that the report never prints, and the values that its evidence admits, in its unit.
 
-    `computed` is null where it has no value, which a misprint in the report may cause.
+    Every value in `interval` gives all agreeing evidence, taken exactly as printed but with a
+    sphere's mass; in `with_printed_mass` with the mass as printed. Rounded inputs admit none
+    outside `possible_with_rounded_inputs`.
+    """
+
+    id: str
+    entry: Inferred
+    scheme: Scheme
+    assumed: float
+    interval: Ends
+    with_printed_mass: Ends
+    possible_with_rounded_inputs: Ends | None
+    evidence: Sequence[str]
+    odd: Sequence[str]
+    sources: Sequence[Comparison]
+
+
+# Findings
+
+
+class Evidence(_Part, frozen=True):
+    """A number in a finding's text, as asserted and as computed here, or the outcome of a proof.
+
+    `asserted` is the number as the text prints it, perhaps after a relation (">= 17.7"), or "yes"
+    or "no". `computed` is null where it has no value, which a misprint in the report may cause.
     """
 
     name: str
@@ -263,8 +233,12 @@ class EvidenceRecord(_Part, frozen=True):
     computed: float | bool | None
     holds: bool
 
+    def __str__(self) -> str:
+        """Return the number as it stands in the text, without its relation."""
+        return self.asserted.rpartition(" ")[2]
 
-class FindingRecord(_Part, frozen=True):
+
+class Finding(_Part, frozen=True):
     """What a failed or surprising claim shows about the report, with the evidence."""
 
     id: str
@@ -276,34 +250,19 @@ class FindingRecord(_Part, frozen=True):
     by_hand: str
     settle: str
     holds: bool
-    evidence: list[EvidenceRecord]
+    evidence: list[Evidence]
 
 
-class InferredRecord(_Part, frozen=True):
-    """An input that the report never prints, and the values that its evidence admits, in `unit`."""
-
-    id: str
-    title: str
-    unit: str
-    scheme: str
-    assumed: float
-    nominal_source: str
-    interval: tuple[float, float]
-    interval_exact: tuple[str, str]
-    with_printed_mass: tuple[float, float]
-    possible_with_rounded_inputs: tuple[float, float] | None
-    evidence: list[str]
-    odd: list[str]
-    sources: list[SourceRecord]
+# The comparison of the report's approaches, and pictures
 
 
 class Approach(_Part, frozen=True):
-    """The normalized depth X/R by one approach, as computed here and as printed."""
+    """The normalized depth X/R by one approach, as computed here and, `shown`, as printed."""
 
     kind: str
     name: str
     computed: float | None = None
-    printed: str = ""
+    shown: str = msgspec.field(name="printed", default="")
     claim: str | None = None
 
 
@@ -343,10 +302,10 @@ class Scatter(_Part, frozen=True):
 
 
 class Curve(_Part, frozen=True):
-    """Depth against time, from first contact to rest."""
+    """Depth against time, from first contact to rest; `shown` is the final depth as printed."""
 
     beta: float
-    printed: str
+    shown: str = msgspec.field(name="printed")
     sheet_time: list[float]
     sheet_depth: list[float]
     exact_time: list[float]
@@ -406,11 +365,11 @@ class Record(_Part, frozen=True):
     report: Report
     summary: dict[str, int]
     counts: Counts
-    culprit: RepairRecord | None
+    culprit: Repair | None
     failing: list[str]
     claims: list[ClaimRecord]
     equations: list[EquationRecord]
-    findings: list[FindingRecord]
+    findings: list[Finding]
     inferred: list[InferredRecord]
     approaches: list[Approach]
     sensitivity: list[Sensitivity]
@@ -423,27 +382,20 @@ class Record(_Part, frozen=True):
     provenance: dict[str, Any]
 
     def claim(self, name: str) -> ClaimRecord:
-        """Return the claim with this id. Raises KeyError if there is none."""
-        return {claim.id: claim for claim in self.claims}[name]
+        """Return the claim with this id. Raises KeyError if there is none, and names similar ones.
 
+        >>> from replication.audit.audit import audit
+        >>> audit().claim("depth-beta-5")
+        <claim depth-beta-5: 7.67 um, reproduced>
+        """
+        claims = {claim.id: claim for claim in self.claims}
+        if name not in claims:
+            raise KeyError(f"there is no claim {name!r}; {advice(name, claims, 'see `claims`')}")
+        return claims[name]
 
-_Filled = TypeVar("_Filled", bound=_Part)
-
-
-def filled(kind: type[_Filled], *sources: object, **given: Any) -> _Filled:
-    """Build a part of the record; fields not given are copied from the sources by name.
-
-    Raises TypeError where not exactly one source has a field.
-    """
-    for name in sorted(set(kind.__struct_fields__) - given.keys()):
-        values = [getattr(source, name) for source in sources if hasattr(source, name)]
-        if len(values) != 1:
-            raise TypeError(f"{kind.__name__}.{name}: {len(values)} sources have it")
-        given[name] = values[0]
-    return kind(**given)
-
-
-def schema() -> dict[str, Any]:
-    """Return the JSON Schema of `audit.json`."""
-    dialect = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
-    return dialect | msgspec.json.schema(Record)
+    def __repr__(self) -> str:
+        """A line, not the whole: that has some 340,000 characters."""
+        counted = ", ".join(
+            f"{count} {verdict}" for verdict, count in self.summary.items() if count
+        )
+        return f"<audit of {len(self.claims)} entries: {counted}; {len(self.findings)} findings>"

@@ -8,6 +8,7 @@ import math
 from collections.abc import Callable, Mapping
 from functools import partial
 
+from reference.scheme import Scheme
 from replication.models import crater, estimates, sheet
 from replication.models.crater import depth_from_volume_ratio
 from replication.models.impact import Impact, particle_mass
@@ -24,7 +25,7 @@ def replica(name: str, inputs: Mapping[str, float], **settings: object) -> float
     return float(REPLICA[name](**inputs, **settings))
 
 
-def _cell(column: str, row: int, scheme: str, **inputs: float) -> float:
+def _cell(column: str, row: int, scheme: Scheme, **inputs: float) -> float:
     return float(getattr(sheet.run(Impact(**inputs), scheme).rows[row], column))
 
 

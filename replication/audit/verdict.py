@@ -1,77 +1,35 @@
 """The verdicts: whether a printed number or equation follows from the rest of the report."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 from functools import cache, cached_property, partial
 from itertools import islice
 from math import prod
 
-import msgspec
 from msgspec.structs import replace
 
-from reference.arithmetic import InexactError, Rationals, Reals
+from reference.arithmetic import Floats, InexactError, Rationals, Reals
+from reference.derivations import Check, derive
 from reference.enclosure import Box, Ends, enclose, satisfying
 from reference.equations import EquationError, dimension
-from reference.formulas import Check, Equation, derive
-from reference.ledger import INFERRED, Claim, Convention, Ledger, in_header
+from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, in_header
 from reference.printed import Interval, Rounding
+from reference.scheme import Scheme
 from reference.units import Dimension, DimensionError
-from replication.audit.inference import Inference
-from replication.audit.record import ConstantRecord, Verdict
+from replication.audit.assessment import (
+    Assessment,
+    Comparison,
+    ConfirmedRange,
+    EquationAssessment,
+    JudgedConstant,
+    Judgement,
+    Reading,
+    Verdict,
+)
+from replication.audit.inference import Admission, Inference
 from replication.audit.replica import replica
 
 _REALS, _RATIONALS = Reals(50), Rationals()
-
-
-class Judgement(msgspec.Struct, frozen=True):
-    """The verdict under one convention.
-
-    `ends` is a range proven to contain the value, in the claim's unit: if the printed inputs give
-    the number, for these and all admitted values of the inferred inputs; else for all inputs that
-    print like the report's. Unless the number is reproduced, `witness` holds inputs (SI) that give
-    it, if some are known; it has the mass in place of a radius computed from the mass.
-    `against_evidence`: some value in the range prints like the claim, but it is proven that no
-    inputs give both it and the numbers from which an input is inferred.
-    """
-
-    convention: Convention
-    verdict: Verdict
-    ends: Ends
-    witness: Mapping[str, Fraction] | None = None
-    against_evidence: bool = False
-
-
-class Reading(msgspec.Struct, frozen=True):
-    """The result of one computation of a claim, by one reading of the report; in the claim's unit.
-
-    `computed` is the models' double for the inputs as printed (in a ledger with a misprint, that of
-    the ledger's formula), `reference` the same value to 25 digits; `judgements` has one judgement
-    for every convention, the usual one first.
-    """
-
-    name: str
-    summary: str
-    computed: float
-    reference: str
-    judgements: tuple[Judgement, ...]
-
-    @property
-    def verdict(self) -> Verdict:
-        """The verdict under the usual convention."""
-        return self.judgements[0].verdict
-
-    @property
-    def otherwise(self) -> list[Judgement]:
-        """The judgements whose verdict differs from that under the usual convention."""
-        return [judgement for judgement in self.judgements if judgement.verdict != self.verdict]
-
-
-class Assessment(msgspec.Struct, frozen=True):
-    """The verdict on a claim, its reason, and the readings behind it, the one as printed first."""
-
-    verdict: Verdict
-    reason: str = ""
-    readings: tuple[Reading, ...] = ()
 
 
 def is_consistent(ledger: Ledger, claim: Claim) -> bool:
@@ -97,13 +55,18 @@ class Judge:
 
     def __init__(self, ledger: Ledger, *, every_convention: bool = True) -> None:
         self.ledger, self.every_convention = ledger, every_convention
+        # Cached by this object and not by the functions, so that the results are freed with it.
         self._inferences = cache(partial(Inference, ledger))
+        self.assess_equation = cache(partial(assess_equation, ledger))
+        self.assess = cache(self._assess)
+        self.confirmed_range = cache(self._confirmed_range)
+        self.sources = cache(self._sources)
 
     def inference(
-        self, name: str, *, centered: bool = False, rounding: Rounding = Rounding.AWAY
+        self, name: str, *, scheme: Scheme = Scheme.PUBLISHED, rounding: Rounding = Rounding.AWAY
     ) -> Inference:
         """Infer an unprinted input under one of the schemes, with the evidence so rounded."""
-        return self._inferences(name, centered=centered, rounding=rounding)
+        return self._inferences(name, scheme=scheme, rounding=rounding)
 
     @cached_property
     def assumed(self) -> Mapping[str, Fraction]:
@@ -126,20 +89,46 @@ class Judge:
         """Return the printed or, for an inferred input, the assumed value of an entry, in SI."""
         return self.assumed[name] if name in self.assumed else self.ledger.value(name)
 
-    def assess(self, claim: Claim) -> Assessment:
-        """Return the verdict on a claim that has a computation.
+    def _assess(self, claim: Claim) -> Assessment:
+        """Return the verdict on a claim.
+
+        What the report computes or repeats is computed or compared again, and a constant of an
+        equation is judged with the equation. Only where that decides nothing, public sources do,
+        or the claims that are computed from the number.
+        """
+        if claim.kind == "remark":
+            return Assessment(Verdict.REMARK)
+        if claim.restates:
+            is_met = is_consistent(self.ledger, claim)
+            return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
+        if claim.is_computed:
+            return self._recomputed(claim)
+        constant = self.constant(claim)
+        if constant is not None and constant.verdict != Verdict.NOT_CHECKABLE:
+            return Assessment(constant.verdict)
+        if sources := self.sources(claim.id):
+            is_printed = any(source.agrees for source in sources)
+            return Assessment(Verdict.AGREES if is_printed else Verdict.DIFFERS)
+        if claim.shown_by:
+            is_met = self.confirmed_range(claim) is not None
+            return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
+        return Assessment(Verdict.NOT_CHECKABLE)
+
+    def constant(self, claim: Claim) -> JudgedConstant | None:
+        """Return the judgement on a claim as a constant of its equation; None if it is none."""
+        return self.assess_equation(claim.within).constants.get(claim.id) if claim.within else None
+
+    def _recomputed(self, claim: Claim) -> Assessment:
+        """Return the verdict on a claim that the report computes.
 
         It is "not reproduced", with the reason, if the computation has no value for the inputs as
         printed.
         """
-        if claim.restates:
-            agrees = is_consistent(self.ledger, claim)
-            return Assessment(Verdict.CONSISTENT if agrees else Verdict.INCONSISTENT)
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
         except ArithmeticError as error:
-            return Assessment(Verdict.NOT_REPRODUCED, str(error))
-        return Assessment(readings[0].verdict, readings=readings)
+            return Assessment(Verdict.NOT_REPRODUCED, no_value=str(error))
+        return Assessment(readings[0].verdict, readings)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         function = self.ledger.function(claim, reading=name)
@@ -157,7 +146,7 @@ class Judge:
         )
         return Reading(name, claim.computations[name].summary, computed, digits, in_unit)
 
-    def modelled(self, claim: Claim, reading: str = "", scheme: str = "published") -> float:
+    def modelled(self, claim: Claim, reading: str = "", scheme: Scheme = Scheme.PUBLISHED) -> float:
         """Return the models' value of a claim for its inputs as printed, in SI."""
         computation = claim.computations[reading]
         inputs = {key: float(prod(map(self.value, names))) for key, names in claim.inputs.items()}
@@ -168,14 +157,14 @@ class Judge:
 
     def _judgements(self, claim: Claim, reading: str) -> Iterator[Judgement]:
         """Yield a judgement for every convention that may matter, the usual first; ends in SI."""
-        printed = self.printed(claim)
-        for centered in (False, True) if claim.by_scheme else (False,):
-            inferred = {e: self.inference(e, centered=centered).inner.ends for e in claim.inferred}
-            at_print = admitted = self._range(claim, reading, centered, printed)
+        printed = self.inputs_as_printed(claim)
+        for scheme in Scheme if claim.by_scheme else (Scheme.PUBLISHED,):
+            inferred = {e: self.inference(e, scheme=scheme).inner.ends for e in claim.inferred}
+            at_print = admitted = self._range(claim, reading, scheme, printed)
             if inferred:
-                admitted = self._range(claim, reading, centered, {**printed, **inferred})
+                admitted = self._range(claim, reading, scheme, {**printed, **inferred})
             for rounding in Rounding:
-                convention, target = Convention(rounding, centered=centered), claim.target(rounding)
+                convention, target = Convention(rounding, scheme=scheme), claim.target(rounding)
                 if target.excludes(*at_print):
                     conventions = _input_conventions(self.ledger, claim, convention)
                     yield from map(partial(self._search, claim, reading), conventions)
@@ -194,43 +183,82 @@ class Judge:
         Those must also give the numbers from which an input is inferred.
         """
         target = claim.target(convention.rounding)
-        function = self.ledger.function(claim, reading=reading, centered=convention.centered)
-        box = own_box = self.box(claim, convention)
+        function = self.ledger.function(claim, reading=reading, scheme=convention.scheme)
+        box = self.inputs_as_rounded(claim, convention)
         ends = enclose(function, box).ends
         if target.excludes(*ends):
             return Judgement(convention, Verdict.NOT_REPRODUCED, ends)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
-        own = constraints = [(function, target)]
-        witnessed, searches = set(claim.entries), dict[str, Ends]()
+        constraints = [(function, target)]
+        witnessed = set(claim.entries)
         for entry in claim.inferred:
-            inference = self.inference(entry, centered=convention.centered)
+            inference = self.inference(entry, scheme=convention.scheme)
             constraints, box = inference.joint(convention, box, constraints)
-            searches[entry] = inference.entry.search
             if inference.entry.radius in witnessed - box.keys():  # computed from the mass
                 witnessed.add(inference.entry.mass)
         outcome, point = satisfying(constraints, box, budget)
-        if outcome is None and searches:
-            # Halving its whole range of search may narrow an inferred input sooner.
-            outcome, point = satisfying(constraints, {**box, **searches}, budget)
         witness = point and {entry: x for entry, x in point.items() if entry in witnessed}
-        against_evidence = bool(
-            searches and outcome is False and satisfying(own, own_box, _BUDGET // 10)[0]
-        )
+        against_evidence = bool(claim.inferred) and outcome is False
         return Judgement(convention, _VERDICTS[outcome], ends, witness, against_evidence)
+
+    # Public sources, and choices that other claims confirm
+
+    def admission(self, source: Source) -> Admission:
+        """Return whether the evidence for an inferred input admits a public source's value."""
+        (name,) = source.claims
+        return self.inference(name).admits(source.value, source.interval)
+
+    def _sources(self, name: str) -> list[Comparison]:
+        """Return the public sources for a claim or an inferred input, each compared with it."""
+        records = []
+        for source in self.ledger.sources_of(name):
+            if name.startswith(INFERRED):
+                admission = self.admission(source)
+                matches, outcome = admission is Admission.ADMITTED, f"is {admission.value}"
+            else:
+                matches = self.ledger.claims[name].target().meets(source.interval)
+                outcome = "agrees" if matches else "differs"
+            records.append(Comparison(source, matches, outcome))
+        return records
+
+    def _confirmed_range(self, chosen: Claim) -> ConfirmedRange | None:
+        """Return the range around a chosen number for which the claims that confirm it agree.
+
+        Its ends are found by bisection, in doubles. It is None if no claim confirms the number, or
+        if one of them disagrees with it.
+        """
+        if not chosen.shown_by or not self.is_confirmed(chosen, chosen.value):
+            return None
+        ends = []
+        for limit in self.ledger.search(chosen.id)[:2]:
+            good, bad = chosen.value, limit
+            for _ in range(_BISECTIONS):
+                middle = (good + bad) / 2
+                good, bad = (middle, bad) if self.is_confirmed(chosen, middle) else (good, middle)
+            ends.append(float(good / chosen.si))
+        return ConfirmedRange(chosen.shown_by, (ends[0], ends[1]), chosen.unit)
+
+    def is_confirmed(self, chosen: Claim, value: Fraction) -> bool:
+        """Return whether all claims that confirm a number agree with this value (SI) of it."""
+        ledger, changed = self.ledger, {**self.assumed, chosen.id: value}
+        return all(agrees(ledger, ledger.claims[name], changed) for name in chosen.shown_by)
+
+    # The inputs of a claim
 
     def relevant(self, claim: Claim) -> list[str]:
         """Return the inferred inputs of a claim, less those proven not to influence its value."""
         inferred = {entry: self.inference(entry).inner.ends for entry in claim.inferred}
         if not inferred:
             return []
-        idle = enclose(self.ledger.function(claim), {**self.printed(claim), **inferred}).idle
+        box = {**self.inputs_as_printed(claim), **inferred}
+        idle = enclose(self.ledger.function(claim), box).idle
         return [entry for entry in claim.inferred if entry not in idle]
 
-    def printed(self, claim: Claim) -> Box:
+    def inputs_as_printed(self, claim: Claim) -> Box:
         """Return the inputs of a claim as printed or, where they are inferred, as assumed."""
         return {entry: (self.value(entry),) * 2 for entry in claim.entries}
 
-    def box(self, claim: Claim, convention: Convention) -> Box:
+    def inputs_as_rounded(self, claim: Claim, convention: Convention) -> Box:
         """Return the ranges of a claim's inputs, each as `rounded` has it."""
         return {entry: self.rounded(entry, convention).ends for entry in claim.entries}
 
@@ -238,19 +266,20 @@ class Judge:
         """Return the values of an input (SI) that print like it, or that its evidence admits."""
         if entry in self.ledger.claims:
             return self.ledger.claims[entry].as_input(convention)
-        return self.inference(entry, centered=convention.centered).admitted(convention)
+        return self.inference(entry, scheme=convention.scheme).admitted(convention)
 
-    def _range(self, claim: Claim, reading: str, centered: bool, box: Box) -> Ends:
+    def _range(self, claim: Claim, reading: str, scheme: Scheme, box: Box) -> Ends:
         """Return a proven range of a claim's values, in SI.
 
         It is one exact value if every input that has influence is one value, and the result is
         rational: only then can it be proven to lie exactly on an end of a printed interval.
         """
-        function = self.ledger.function(claim, reading=reading, centered=centered)
+        function = self.ledger.function(claim, reading=reading, scheme=scheme)
         range_, computation = enclose(function, box), claim.computations[reading]
         decided = all(claim.target(rounding).decides(*range_.ends) for rounding in Rounding)
         # Fractions grow too long over a whole sheet, and in rows that square twice (centered).
-        long = computation.by_scheme and (not computation.by_row or (centered and decided))
+        squares_twice = scheme is Scheme.CENTERED
+        long = computation.by_scheme and (not computation.by_row or (squares_twice and decided))
         if long or any(box[entry][0] != box[entry][1] for entry in box.keys() - range_.idle):
             return range_.ends
         try:
@@ -267,6 +296,9 @@ _VERDICTS = {
 
 _BUDGET = 100
 """The most boxes that a search tries; a tenth of it for whole sheets, which take 10 ms each."""
+
+_BISECTIONS = 40
+"""This many narrow the search to 1e-12 of its width, which is finer than any page shows."""
 
 
 def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> list[Convention]:
@@ -289,21 +321,37 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> list[
     ]
 
 
+# Checks in doubles, which find an explanation or the range of a chosen number
+
+_CLOSE = Fraction(1, 10**9)
+"""The largest relative difference at which a double agrees with an exact number, such as 2/3."""
+
+Values = Mapping[str, Fraction]
+"""Values of some entries (SI) in place of the printed ones."""
+
+
+def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> bool:
+    """Return whether a claim agrees with its computation, in doubles, some entries changed."""
+    if claim.restates:
+        return is_consistent(ledger, claim)
+    target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
+    inputs = {name: float(changed.get(name, value)) for name, value in values.items()}
+    try:
+        value = Fraction(ledger.function(claim, reading=reading)(Floats(), **inputs))
+    except (ArithmeticError, ValueError, TypeError):
+        return False  # these inputs give no result, or only a complex one
+    if target.is_point and target.lower is not None:
+        return abs(value - target.lower) <= _CLOSE * abs(target.lower)
+    return target.contains(value)
+
+
+def disagreeing(ledger: Ledger, names: Iterable[str], changed: Values) -> set[str]:
+    """Return which of the claims disagree with their computations, some entries changed."""
+    claims = (ledger.claims[name] for name in names)
+    return {c.id for c in claims if c.computation is not None and not agrees(ledger, c, changed)}
+
+
 # Equations, and the constants in them
-
-
-class EquationAssessment(msgspec.Struct, frozen=True):
-    """The verdict on an equation, the checks behind it, and the verdicts on its constants."""
-
-    equation: Equation
-    verdict: Verdict
-    checks: tuple[Check, ...]
-    constants: Mapping[str, ConstantRecord]
-
-    @property
-    def factor(self) -> Fraction | None:
-        """The printed over the derived side; None unless they differ by a constant factor."""
-        return next((check.factor for check in self.checks if check.factor is not None), None)
 
 
 def assess_equation(ledger: Ledger, name: str, *, constants: bool = True) -> EquationAssessment:
@@ -337,7 +385,7 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
     """Yield the checks of an equation, the dimensions last, as they are seldom what is wrong."""
     try:
         ledger.read(ledger.printed_text(name))  # else the sides are the report's
-        yield from derive(ledger.equations[name], ledger.sides, ledger.written)
+        yield from derive(name, ledger.sides, ledger.written)
     except (ZeroDivisionError, KeyError, ValueError) as error:
         yield Check(f"it can be derived: {error}", holds=False)
     known: dict[str, Dimension | Fraction] = {**ledger.dimensions}
@@ -350,7 +398,7 @@ def _checks(ledger: Ledger, name: str) -> Iterator[Check]:
         yield Check(f"{says}: {error}", holds=False)
 
 
-def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantRecord]:
+def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, JudgedConstant]:
     """Judge each constant of an equation by the values in its place that pass every check.
 
     It is reproduced if only the printed value does, not reproduced if only other values do.
@@ -375,7 +423,7 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, ConstantReco
         verdict = Verdict.NOT_REPRODUCED if values else Verdict.UNDECIDED
         if printed[claim] in values:
             verdict = Verdict.REPRODUCED if len(values) == 1 else Verdict.NOT_CHECKABLE
-        constants[claim] = ConstantRecord(claim=claim, verdict=verdict, needed=[*map(str, values)])
+        constants[claim] = JudgedConstant(claim=claim, verdict=verdict, needed=[*map(str, values)])
     return constants
 
 

@@ -5,26 +5,57 @@ from fractions import Fraction
 
 from reference.ledger import Claim, Ledger
 from reference.printed import Interval, Rounding
+from reference.scheme import Scheme
 from reference.units import to_si
-from replication.audit.record import ConstantRecord, Shown, SourceRecord, Verdict
-from replication.audit.verdict import Assessment, EquationAssessment, Judge, Judgement, Reading
+from replication.audit.assessment import (
+    Assessment,
+    Comparison,
+    ConfirmedRange,
+    EquationAssessment,
+    JudgedConstant,
+    Judgement,
+    Reading,
+    Verdict,
+)
+from replication.audit.verdict import Judge
 from replication.text import between, number, quantity
 
 REMARK = "A remark, not a number: the figures below help to judge it."
 
 
 def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
-    """Explain the verdict on a claim that has a computation, or repeats another claim."""
-    if assessed.reason:
-        return f"With the numbers as printed it cannot be computed: {assessed.reason}."
-    if not assessed.readings:
-        if "value" not in claim.inputs:
-            return f"The report lists {len(claim.inputs)}."
-        restated = judge.ledger.claims[claim.inputs["value"][0]]
-        but = "" if assessed.verdict is Verdict.CONSISTENT else ", which does not agree"
-        shown = quantity(restated.shown, restated.unit)
-        return f"It repeats or compares with {shown} ({restated.title}){but}."
-    first, *others = assessed.readings
+    """Explain the verdict on a claim by what it rests on."""
+    ledger = judge.ledger
+    if assessed.verdict is Verdict.REMARK:
+        return REMARK
+    if assessed.no_value:
+        return f"With the numbers as printed it cannot be computed: {assessed.no_value}."
+    if assessed.readings:
+        return recomputation(judge, claim, assessed.readings)
+    if (constant := judge.constant(claim)) is not None:
+        return constant_explanation(ledger, claim, constant)
+    if claim.restates:
+        return repetition(ledger, claim, assessed.verdict)
+    if comparisons := judge.sources(claim.id):
+        return sources(ledger, claim, comparisons)
+    if claim.shown_by:
+        return fitting(ledger, claim, judge.confirmed_range(claim))
+    return f"Nothing in the report decides it: {claim.why}."
+
+
+def repetition(ledger: Ledger, claim: Claim, verdict: Verdict) -> str:
+    """Explain the verdict on a claim that repeats another number of the report, or counts."""
+    if "value" not in claim.inputs:
+        return f"The report lists {len(claim.inputs)}."
+    restated = ledger.claims[claim.inputs["value"][0]]
+    but = "" if verdict is Verdict.CONSISTENT else ", which does not agree"
+    shown = quantity(restated.shown, restated.unit)
+    return f"It repeats or compares with {shown} ({restated.title}){but}."
+
+
+def recomputation(judge: Judge, claim: Claim, readings: Sequence[Reading]) -> str:
+    """Explain the verdict on a claim that is computed: the value by each reading, and the proof."""
+    first, *others = readings
     what, interval = first.summary[:1].upper() + first.summary[1:], claim.interval()
     inside = "" if first.verdict is Verdict.REPRODUCED else "not "
     relation, shown = "as" if interval.is_point else "in", str(interval).replace("E", "e")
@@ -45,13 +76,13 @@ def origin(claim: Claim) -> str:
     return f"{why[:1].upper()}{why[1:]}."
 
 
-def fitting(ledger: Ledger, claim: Claim, shown: Shown | None) -> str:
+def fitting(ledger: Ledger, claim: Claim, confirmed: ConfirmedRange | None) -> str:
     """Explain the verdict on a number without a computation by what is computed from it."""
-    if shown is None:
+    if confirmed is None:
         return f"{origin(claim)} What is computed from it does not come out as printed."
-    text = quantity(between(shown.interval, 4, inward=True), shown.unit)
-    titles = "; ".join(map(ledger.title, shown.claims))
-    come = "this comes" if len(shown.claims) == 1 else "these come"
+    text = quantity(between(confirmed.interval, 4, inward=True), confirmed.unit)
+    titles = "; ".join(map(ledger.title, confirmed.claims))
+    come = "this comes" if len(confirmed.claims) == 1 else "these come"
     return f"{origin(claim)} For {text} {come} out as printed: {titles}."
 
 
@@ -85,18 +116,19 @@ def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
 # Conventions
 
 
-def holds(claim: Claim, reading: Reading) -> str:
-    """Say under which conventions the verdict holds, and which would change it."""
+def scope(claim: Claim, reading: Reading) -> str:
+    """Say under which conventions the verdict was tried, and which of them give another one."""
     tried = [judgement.convention for judgement in reading.judgements]
-    usual = [c for c in tried if (c.rounding, c.centered) == (tried[0].rounding, tried[0].centered)]
+    usual = [c for c in tried if (c.rounding, c.scheme) == (tried[0].rounding, tried[0].scheme)]
     names = {"choices_exact": "the author's choices", "header_exact": "the header of Table A-1"}
     varied = [name for key, name in names.items() if len({getattr(c, key) for c in usual}) > 1]
-    scope = "three ways of rounding"
-    scope += f", with {' and '.join(varied)} exact or rounded" if varied else ""
-    scope += ", in both schemes" if claim.by_scheme else ""
+    inputs = f", with {' and '.join(varied)} exact or rounded" if varied else ""
+    where = f"{inputs}{', in both schemes' if claim.by_scheme else ''}"
+    if exceptions := _exceptions(claim, reading):
+        others = f"{reading.verdict} under all others"
+        return f"Three ways of rounding were tried{where}: {exceptions}; {others}."
     subject = "As printed, the" if claim.readings and not reading.name else "The"
-    but = _exceptions(claim, reading)
-    return f"{subject} verdict is the same under {scope}{f', except: {but}' * bool(but)}."
+    return f"{subject} verdict is the same under three ways of rounding{where}."
 
 
 def _exceptions(claim: Claim, reading: Reading) -> str:
@@ -120,7 +152,7 @@ _UNUSUAL = (
     ("rounding", Rounding.CUT, "digits {cut_off}are cut off"),
     ("choices_exact", False, "what the author chose is rounded, too"),
     ("header_exact", True, "the header of Table A-1 is exact"),
-    ("centered", True, "the drag is taken at the middle velocity"),
+    ("scheme", Scheme.CENTERED, "the drag is taken at the middle velocity"),
 )
 """The settings of a convention that differ from the usual one, in words."""
 
@@ -162,10 +194,14 @@ def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
     return [f"{taken} of {claim.shown} taken as significant; the verdict {depends} on that"]
 
 
-def sources(ledger: Ledger, claim: Claim, records: Sequence[SourceRecord]) -> str:
+def sources(ledger: Ledger, claim: Claim, comparisons: Sequence[Comparison]) -> str:
     """Explain the verdict on a number that is compared with public sources."""
     agreeing, others = (
-        "; ".join(f"{quantity(s.says, s.unit)} ({s.title})" for s in records if s.agrees is agrees)
+        "; ".join(
+            f"{quantity(c.source.says, c.source.unit)} ({c.source.title})"
+            for c in comparisons
+            if c.agrees is agrees
+        )
         for agrees in (True, False)
     )
     if not agreeing:
@@ -197,7 +233,7 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
     return text
 
 
-def constant_explanation(ledger: Ledger, claim: Claim, constant: ConstantRecord) -> str:
+def constant_explanation(ledger: Ledger, claim: Claim, constant: JudgedConstant) -> str:
     """Explain the verdict on a constant of an equation."""
     equation = ledger.equations[claim.within or ""]
     passes = f"the equation follows from {equation.follows_from}"

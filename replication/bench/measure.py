@@ -25,13 +25,14 @@ from tqdm import tqdm
 
 from reference.arithmetic import Number
 from reference.motion import Trajectory
+from reference.scheme import Scheme
 from replication.bench.peers import SOLVERS, Function, bare_depth, depth_loop, sheet_loop
 from replication.cases import BETA_5, changed, inputs_of
 from replication.error.hard_cases import HARD_CASES
 from replication.error.ladder import exact_motion
 from replication.models import arrays, motion
 from replication.models.impact import Impact
-from replication.models.sheet import SCHEMES, run
+from replication.models.sheet import run
 
 Measure = Literal["depth", "history"]
 MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}
@@ -144,7 +145,7 @@ def tasks(case: Case) -> Iterator[Task]:
     """Yield every method at every setting: this project's, ODE solvers, and plain loops."""
     given, stop = tuple(case.impact.motion.values()), case.impact.stop_velocity
     steps = [(step, f"{step * 1e9:.5g} ns") for step in (case.impact.step * f for f in STEPS)]
-    for scheme, (step, setting) in product(SCHEMES, steps):
+    for scheme, (step, setting) in product(Scheme, steps):
         name, impact = f"sheet, {scheme}", replace(case.impact, step=step)
         yield Task(name, setting, "depth", partial(_rows, impact, scheme, None), stop)
         yield Task(name, setting, "history", partial(_rows, impact, scheme, case.times), stop)
@@ -178,7 +179,7 @@ def _many(name: str, setting: str, case: Case, work: Function, count: int, stop:
     return Task(f"{name}, many", setting, "depth", work, stop, count, compiled=True)
 
 
-def _rows(impact: Impact, scheme: str, times: Any) -> Any:
+def _rows(impact: Impact, scheme: Scheme, times: Any) -> Any:
     """Return the sheet's final depth, or its depths interpolated linearly at the times.
 
     The scheme's x belongs to the middle of its row, half a step before the time of the row.

@@ -11,7 +11,7 @@ import numpy as np
 
 from replication.bench.measure import MEASURES, Point, met, ranked
 from replication.bench.peers import SOLVERS
-from replication.text import aligned, json_text, number, rows_csv
+from replication.text import aligned, columns, json_text, number, rows_csv
 from spreadsheets.safely import write_folder
 
 _HEAD = """\
@@ -22,8 +22,11 @@ Times are for one case, in us: best and median of {repeats}, taken in turn, or o
 {limit:g} s allow; compile times are in s. * marks the Pareto front of one case at a time."""
 
 
-def texts(record: dict[str, Any]) -> dict[str, str]:
-    """Return the text files of a run, by file name."""
+def texts(record: dict[str, Any], width: int = 10_000) -> dict[str, str]:
+    """Return the text files of a run, by file name.
+
+    Where a table is wider than `width`, final depth and history have one each.
+    """
     cases = record["cases"]
     repeats = "1 repeat" if record["repeat"] == 1 else f"{record['repeat']} repeats"
     lines = [
@@ -31,14 +34,18 @@ def texts(record: dict[str, Any]) -> dict[str, str]:
         _HEAD.format(repeats=repeats, limit=record["limit"]),
     ]
     for case in cases:
-        lines += ["", f"{case['name']}: {case['depth'] * 1e6:.7g} um", *_table(case["points"])]
+        lines += [
+            "",
+            f"{case['name']}: {case['depth'] * 1e6:.7g} um",
+            *_table(case["points"], width),
+        ]
     lines += ["", "What should I use for N digits?", *_answers(cases), ""]
     rows = [{"case": case["name"], **point} for case in cases for point in case["points"]]
     csv = rows_csv(rows)
     return {"bench.txt": "\n".join(lines), "bench.json": json_text(record), "bench.csv": csv}
 
 
-def _table(points: Sequence[Point]) -> Iterator[str]:
+def _table(points: Sequence[Point], width: int) -> Iterator[str]:
     heads = ("error", "best", "median", "")
     rows: list[tuple[str, ...]] = [
         ("method", "setting", "compile", "final depth", "", "", "", "history", "", "", ""),
@@ -49,7 +56,11 @@ def _table(points: Sequence[Point]) -> Iterator[str]:
         seconds = max(point["compile"] or 0.0 for point in known.values())
         cells = [cell for measure in MEASURES for cell in _cells(known.get(measure))]
         rows.append((method, setting, f"{seconds:.2f}" if seconds > 5e-3 else "", *cells))
-    yield from aligned(rows)
+    table = aligned(rows)
+    if max(map(len, table)) > width:
+        history = [(*row[:2], *row[7:]) for row in rows]
+        table = [columns([row[:7] for row in rows], width), "", columns(history, width)]
+    yield from table
     for point in points:
         if point["gap"]:
             yield "- {method}, {setting}, {}: {gap}".format(MEASURES[point["measure"]], **point)

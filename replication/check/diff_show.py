@@ -159,7 +159,7 @@ def html(record: Record, differences: Sequence[Difference], book: Book) -> str:
         "sheets": [_drawn(name, marked.index(name), shown, book) for name in marked],
     }
     filters = {"safe": safe, "contents": contents}
-    return page.filled("replication.check", "diff.html.j2", parts, filters)
+    return page.from_template("replication.check", "diff.html.j2", parts, filters)
 
 
 def _anchor(place: tuple[str, int, int], sheets: Sequence[str]) -> str:

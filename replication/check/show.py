@@ -346,7 +346,7 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
     }
     filters = {"safe": safe, "contents": contents, "unit": written, "quantity": quantity,
                "known_by": _known_by}  # fmt: skip
-    return page.filled("replication.check", "page.html.j2", parts, filters)
+    return page.from_template("replication.check", "page.html.j2", parts, filters)
 
 
 _LISTS = (

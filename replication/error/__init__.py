@@ -19,6 +19,12 @@ velocity may fall short of it: half a unit of the third digit, the report's last
 much."""
 
 
+NOTES = frozenset({"reversed"})
+"""The kinds of warnings that only say how a sheet ends. It stops at the first row below the stop
+velocity, which in most cases, the report's too, is below zero. A step so long that this matters is
+warned of by other kinds."""
+
+
 def too_long(travel: float) -> bool:
     """Return whether dt V / R exceeds `COARSE` by more than the rounding of decimal inputs."""
     return travel - COARSE > COARSE * 1e-12

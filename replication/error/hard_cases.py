@@ -16,7 +16,7 @@ from replication.error import warnings
 from replication.error.ladder import exact_motion
 from replication.models.depth import final_depth
 from replication.models.sheet import run
-from replication.text import aligned
+from replication.text import aligned, columns
 
 
 def _half_buried(factor: float) -> dict[str, float]:
@@ -167,8 +167,11 @@ def record(count: int, seed: int) -> dict[str, Any]:
     return {"cases": list(map(outcome, HARD_CASES)), "random": worst_of(count, seed)}
 
 
-def text(record: dict[str, Any]) -> str:
-    """Return the hard cases as a table, with notes below it and the worst of the random cases."""
+def text(record: dict[str, Any], width: int = 10_000) -> str:
+    """Return the hard cases as a table, with notes below it and the worst of the random cases.
+
+    Where the table is wider than `width`, the sheet and the closed form have one each.
+    """
     rows: list[tuple[str, ...]] = [
         ("case", "steps", "sheet X/m", "off by", "closed form X/m", "ulp", "exact X/m")
     ]
@@ -190,4 +193,8 @@ def text(record: dict[str, Any]) -> str:
         f"Closed form over {worst['cases']} random cases ({worst['skipped']} without a normal "
         f"double for an answer): at worst {worst['ulps']:.2f} ulp, at {inputs}."
     )
-    return "\n".join([*aligned(rows), "", *notes, "", closing])
+    table = aligned(rows)
+    if max(map(len, table)) > width:
+        sheets, exact = [row[:4] for row in rows], [(row[0], *row[4:]) for row in rows]
+        table = [columns(sheets, width), "", columns(exact, width)]
+    return "\n".join([*table, "", *notes, "", closing])

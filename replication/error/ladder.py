@@ -8,12 +8,12 @@ from itertools import islice, pairwise
 from typing import Any
 
 from reference.motion import Trajectory, sheet_rows
+from reference.scheme import Scheme
 from replication.cases import inputs_of
 from replication.error import warnings
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
-from replication.models.sheet import MAX_STEPS, SCHEMES, Sheet, run
-from replication.text import aligned, number
+from replication.models.sheet import MAX_STEPS, Sheet, run
 
 Budget = dict[str, float | None]
 Level = dict[str, Any]
@@ -46,8 +46,9 @@ def split(sheet: Sheet) -> tuple[float, Budget]:
     x, v, lag = real(0), motion.velocity, real(0)
     if sheet.steps:
         inputs = {name: real(Fraction(value)) for name, value in impact.motion.items()}
-        ways: Any = {"centered": sheet.scheme == "centered", "most_rows": sheet.steps}
-        rows = sheet_rows(motion.reals, **inputs, step=step, **ways)
+        rows = sheet_rows(
+            motion.reals, **inputs, step=step, scheme=sheet.scheme, most_rows=sheet.steps
+        )
         last = next(islice(rows, sheet.steps - 1, None))
         x, v, lag = last.depth, last.velocity_final, last.velocity_final * step / 2
     if abs(v) > motion.velocity:
@@ -71,7 +72,9 @@ def ladder(step: float, levels: int) -> list[float]:
     return [step * 2.0 ** (4 - k) for k in range(levels)]
 
 
-def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") -> dict[str, Any]:
+def converge(
+    impact: Impact, steps: Sequence[float], scheme: str = Scheme.PUBLISHED
+) -> dict[str, Any]:
     """Run the sheet at each step, coarsest first: the JSON of `coldspray converge`.
 
     Lengths are in m. For each level, `error` and `budget` are those of `split`, `order` is the
@@ -79,13 +82,14 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     and `regime` names what governs the error. `limit`, an estimate of the depth at the stop
     velocity, `observed_order` and `gci` come from the three finest depths, without the exact one;
     where they are None, `limit_undefined` says why. Raises ValueError for fewer than two steps, for
-    steps that do not decrease, and where `run` does.
+    steps that do not decrease, and where `run` does, which also says what `scheme` may be.
 
     >>> from replication.cases import BETA_5
     >>> finest = converge(BETA_5, [4e-10, 2e-10, 1e-10])["levels"][-1]
     >>> f"{finest['time_step_order']:.2f}", finest["regime"]
     ('1.02', 'asymptotic')
     """
+    scheme = Scheme(scheme)
     if len(steps) < 2 or any(b >= a for a, b in pairwise(steps)):
         raise ValueError("convergence needs two steps or more, each shorter than the one before")
     for step in steps:  # if one needs too many rows, fail before the long work
@@ -94,7 +98,7 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
     for step in steps:  # again, as a million rows for every step would not fit into memory
         sheet = run(replace(impact, step=step), scheme)
         levels.append(_level(sheet, levels[-1] if levels else None))
-    order, finest, motion = SCHEMES[scheme].order, levels[-3:], exact_motion(impact)
+    order, finest, motion = scheme.order, levels[-3:], exact_motion(impact)
     limit = extrapolated(steps[-3:], [level["depth"] for level in finest], order)
     meaningless = any(level["regime"] == "meaningless" for level in finest)
     if meaningless and not limit["limit_undefined"]:
@@ -112,7 +116,7 @@ def converge(impact: Impact, steps: Sequence[float], scheme: str = "published") 
 
 
 def _level(sheet: Sheet, coarse: Level | None) -> Level:
-    step, (error, budget) = sheet.impact.step, split(sheet)
+    step, (error, budget), doubts = sheet.impact.step, split(sheet), warnings(sheet)
     order = time_step_order = None
     if coarse:
         pair = coarse["steps"], coarse["step"] / step
@@ -124,10 +128,11 @@ def _level(sheet: Sheet, coarse: Level | None) -> Level:
         "depth": sheet.final_depth,
         "error": error,
         "budget": budget,
-        "warnings": list(warnings(sheet).values()),
+        "warnings": list(doubts.values()),
+        "warned_of": list(doubts),
         "order": order,
         "time_step_order": time_step_order,
-        "regime": regime(error, budget, time_step_order, SCHEMES[sheet.scheme].order),
+        "regime": regime(error, budget, time_step_order, sheet.scheme.order),
     }
 
 
@@ -203,7 +208,7 @@ def extrapolated(steps: Sequence[float], depths: Sequence[float], nominal: int) 
     return result | {"limit": limit, "observed_order": order, "gci": gci}
 
 
-def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> dict[str, Any]:
+def step_for_digits(impact: Impact, digits: int, scheme: str = Scheme.PUBLISHED) -> dict[str, Any]:
     """Find a step that gives this many correct digits, as its halvings do; 1 % more does not.
 
     Correct means within half a unit of the last of these digits of the exact depth at rest. Where
@@ -246,77 +251,3 @@ def step_for_digits(impact: Impact, digits: int, scheme: str = "published") -> d
         "error": sheet.final_depth - rest,
         "fails": fails,
     }
-
-
-# The text of the command
-
-_WHY = {
-    "published": (
-        "The published scheme is first order: it takes a row's deceleration at the middle depth,\n"
-        "but at the initial velocity, and drag depends on velocity."
-    ),
-    "centered": (
-        "The centered scheme is second order: it takes a row's deceleration at the middle depth\n"
-        "and at the middle velocity."
-    ),
-}
-
-
-_PARTS_IN_WORDS = """\
-The error is the sum of four parts: time step, the scheme against the exact depth at the velocity
-of the last row; stop rule, that depth against the one at rest; half step, by which x stands behind
-that velocity, -v dt/2; and rounding."""
-
-
-def _um(length: float | None, digits: int) -> str:
-    return "-" if length is None else number(length * 1e6, digits)
-
-
-def _table(levels: Sequence[Level]) -> list[str]:
-    rows: list[tuple[str, ...]] = [
-        ("step", "steps", "depth", "error", "order", "time step", "order", "stop rule", "half step",
-         "rounding", "governed by"),
-        ("[ns]", "", "[um]", "[um]", "", "[um]", "", "[um]", "[um]", "[um]", ""),
-    ]  # fmt: skip
-    for level in levels:
-        budget, orders = level["budget"], (level["order"], level["time_step_order"])
-        order, time_step_order = ("-" if x is None else f"{x:.2f}" for x in orders)
-        rows.append((
-            number(level["step"] * 1e9, 5), str(level["steps"]), _um(level["depth"], 7),
-            _um(level["error"], 3), order, _um(budget["time_step"], 3), time_step_order,
-            _um(budget["stop_rule"], 3), _um(budget["half_step"], 3), _um(budget["rounding"], 2),
-            level["regime"],
-        ))  # fmt: skip
-    return aligned(rows)
-
-
-def text(result: dict[str, Any]) -> str:
-    """Return the ladder as a table, its limit, and where each part of the error comes from."""
-    limit = result["limit_undefined"] or (
-        f"{_um(result['limit'], 8)} um, observed order {result['observed_order']:.2f}, "
-        f"grid convergence index {100 * result['gci']:.2g} %"
-    )
-    order = result["nominal_order"]
-    if result["limit"] and abs(result["observed_order"] - order) > 0.1 * order:
-        limit += " (no bound: the order is not the scheme's)"
-    regimes = {level["regime"] for level in result["levels"]}
-    lines = [
-        *_table(result["levels"]),
-        "",
-        f"exact, at rest            {_um(result['exact'], 10)} um",
-        f"exact, at stop velocity   {_um(result['exact_at_stop'], 10)} um",
-        f"limit of the last three   {limit}",
-        _PARTS_IN_WORDS,
-        _WHY[result["scheme"]],
-        "What governs an error:",
-        *(f"  {name}: {means}" for name, means in GOVERNED_BY.items() if name in regimes),
-    ]
-    if met := result["digits"]:
-        digits = "1 correct digit" if met["digits"] == 1 else f"{met['digits']} correct digits"
-        lines.append(
-            f"{digits}: {number(met['step'] * 1e9, 5)} ns ({met['steps']} steps, "
-            f"error {_um(met['error'], 3)} um) and its halvings; "
-            f"{number(met['fails'] * 1e9, 5)} ns fails.\n"
-            "Steps between them may do better or worse: where the last row falls is an accident."
-        )
-    return "\n".join(lines)

@@ -12,13 +12,19 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cache, partial, wraps
 from typing import Any
 
-from replication.models import crater, depth, impact, motion, sheet
-from replication.models.impact import MAY_BE_ZERO, InputError, check, check_range
+from reference.scheme import Scheme
+from replication.models import crater, depth, estimates, impact, inverse, motion, sheet
+from replication.models.impact import (
+    GREATEST,
+    LEAST,
+    MAY_BE_ZERO,
+    InputError,
+    check,
+    check_each,
+    check_range,
+)
 
 Model = Callable[..., Any]
-
-LEAST, GREATEST = 1e-40, 1e40
-"""`check_range` accepts all inputs in this range, as its products have at most six factors."""
 
 PIECE = 125_000
 """Final depths in a piece of work; two or more pieces are shared among the cores. A piece takes 1.4
@@ -29,16 +35,26 @@ _DOC = """
 
 Inputs, where it takes them: velocity V [m/s] at impact, radius R [m], particle_density rho_p and
 target_density rho_t [kg/m^3], resistance R_t [Pa]; at_velocity v and stop_velocity [m/s]; at_depth
-x [m].
+x and the final depth X [m].
 
 Each is a number, an array, a pandas Series, or an xarray or dask array; they broadcast, and the
 result is of their kind. Raises ValueError, naming the first element that is out of range, where the
 model by itself would give NaN; TypeError for input that is not real numbers.
 """
-"""Added to the docstring of each public model."""
+"""Added to the docstring of each public model of motion."""
+
+_DOC_OF_ESTIMATES = """
+
+Each input is a number, an array, a pandas Series, or an xarray or dask array; they broadcast, and
+the result is of their kind. Raises ValueError, naming the first element that is not above zero, or
+is too large or too small to compute with; TypeError for input that is not real numbers.
+"""
+"""Added to the docstring of each public estimate, which says itself what its inputs are."""
 
 
-def _for_anything(model: Model) -> Model:
+def _for_anything(
+    model: Model, range_check: Callable[..., None] = check_range, doc: str = _DOC
+) -> Model:
     """Return the public form of a model: checked, and for numbers, arrays and other containers."""
     signature = inspect.signature(model)
 
@@ -50,12 +66,41 @@ def _for_anything(model: Model) -> Model:
                 return result
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
-        compute = partial(_computed, model, lambda *cases: _each(model, *cases))
+        compute = partial(
+            _computed, model, lambda *cases: _each(model, *cases), range_check=range_check
+        )
         return _contained(compute, bound.arguments, (float,))
 
-    function.__doc__ = f"{inspect.getdoc(model)}{_DOC}"
+    return _public(function, model, doc)
+
+
+def _solving(model: Model, name: str) -> Model:
+    """Return the public form of a model that solves for the input of this name."""
+    signature = inspect.signature(model)
+
+    @wraps(model)
+    def function(*values: Any, **named: Any) -> Any:
+        if _are_plain(values) and (not named or _are_plain(named.values())):
+            result = model(*values, **named)
+            if LEAST <= result <= GREATEST:
+                return result
+        bound = signature.bind(*values, **named)
+        return _contained(partial(_solved, model, name), bound.arguments, (float,))
+
+    return _public(function, model, _DOC)
+
+
+def _estimating(model: Model) -> Model:
+    """Return the public form of an estimate, whose inputs are not those of an impact."""
+    return _for_anything(model, check_each, _DOC_OF_ESTIMATES)
+
+
+def _public(function: Model, model: Model, doc: str) -> Model:
+    """Give the public form of a model its documentation and its signature."""
+    function.__doc__ = f"{inspect.getdoc(model)}{doc}"
     # The model's annotations say float, but this function takes more.
-    of_anything = [p.replace(annotation=p.empty) for p in signature.parameters.values()]
+    parameters = inspect.signature(model).parameters.values()
+    of_anything = [p.replace(annotation=p.empty) for p in parameters]
     function.__signature__ = inspect.Signature(of_anything)  # type: ignore[attr-defined]
     function.__module__ = __name__  # where pickle looks for it
     return function
@@ -67,6 +112,48 @@ depth_at_velocity = _for_anything(depth.depth_at_velocity)
 velocity_at_depth = _for_anything(depth.velocity_at_depth)
 time_to_depth = _for_anything(motion.time_to_depth)
 stop_time = _for_anything(motion.stop_time)
+
+resistance_for_depth = _solving(inverse.resistance_for_depth, "resistance")
+velocity_for_depth = _solving(inverse.velocity_for_depth, "velocity")
+radius_for_depth = _solving(inverse.radius_for_depth, "radius")
+particle_density_for_depth = _solving(inverse.particle_density_for_depth, "particle_density")
+target_density_for_depth = _solving(inverse.target_density_for_depth, "target_density")
+
+crater_depth = _estimating(crater.crater_depth)
+crater_volume_ratio = _estimating(crater.crater_volume_ratio)
+goodier_beta = _estimating(estimates.goodier_beta)
+walker_anderson_alpha = _estimating(estimates.walker_anderson_alpha)
+walker_anderson_beta = _estimating(estimates.walker_anderson_beta)
+penetration_threshold = _estimating(estimates.penetration_threshold)
+constant_pressure_depth = _estimating(estimates.constant_pressure_depth)
+_frank_zook = {
+    "derived": _estimating(estimates.frank_zook_depth),
+    "printed": _estimating(estimates.frank_zook_depth_as_printed),
+}
+
+
+def frank_zook_depth(
+    velocity: Any, radius: Any, particle_density: Any, target_density: Any, resistance: Any,
+    length_ratio: Any, k_1: Any, k_t: Any, form: str = "derived",
+) -> Any:  # fmt: skip
+    """Final depth X [m] of a noneroding penetrator by Frank and Zook (Eqs. 14-17).
+
+    The form "derived" is what follows from Eqs. 14 and 15. The form "printed" is Eq. 16, which is
+    half of that: it is the depth over the diameter, but is printed as X/R. Inputs are those of
+    `final_depth`, but the resistance is fitted to this model (Eq. 17); length_ratio L/D [1], 2/3
+    for a sphere; fitting parameters k_1 and k_t [1]. They broadcast. Raises ValueError naming the
+    first element that is out of range.
+
+    >>> impact = (500.0, 11e-6, 8900.0, 7850.0, 9.13e9, 2 / 3, 0.557, 1.046)
+    >>> f"{frank_zook_depth(*impact) / 11e-6:.3f}"
+    '0.255'
+    >>> f"{frank_zook_depth(*impact, form='printed') / 11e-6:.3f}"
+    '0.127'
+    """
+    if form not in [*_frank_zook]:  # a list, as a dictionary would need a form that hashes
+        raise ValueError(f"there is no form {form!r}: choose one of {', '.join(_frank_zook)}")
+    impact = velocity, radius, particle_density, target_density, resistance
+    return _frank_zook[form](*impact, length_ratio, k_1, k_t)
 
 
 def history(
@@ -136,7 +223,8 @@ def _histories(*values: Any) -> Any:
 
 def run_many(
     velocity: Any, radius: Any, particle_density: Any, target_density: Any, resistance: Any,
-    step: Any = impact.STEP, stop_velocity: Any = impact.STOP_VELOCITY, scheme: str = "published",
+    step: Any = impact.STEP, stop_velocity: Any = impact.STOP_VELOCITY,
+    scheme: str = Scheme.PUBLISHED,
 ) -> Any:  # fmt: skip
     """Final depth X [m] and number of steps of the report's sheet, for cases that broadcast.
 
@@ -149,8 +237,7 @@ def run_many(
     (['10.03', '7.67'], [178, 131])
     """
     inputs = locals()
-    sheet.check_scheme(inputs.pop("scheme"))
-    centered = scheme == "centered"
+    centered = Scheme(inputs.pop("scheme")) is Scheme.CENTERED
     compute = partial(
         _computed,
         lambda *case: _filled(sheet.last_row, *case, centered),
@@ -162,27 +249,59 @@ def run_many(
 # Checks
 
 
-def _computed(plain: Model, many: Model, **inputs: Any) -> Any:
+def _computed(
+    plain: Model, many: Model, range_check: Callable[..., None] = check_range, **inputs: Any
+) -> Any:
     """Check the inputs, compute by the plain model or for arrays by `many`, check the results."""
-    numbers: dict[str, Any] = {
-        name: x if type(x) is float else _real(name, x) for name, x in inputs.items()
-    }
-    compute = plain if set(map(type, numbers.values())) == {float} else many
-    if compute is many:
+    numbers = _numbers(inputs)
+    compute = plain if _are_floats(numbers) else many
+    if not _in_range(numbers):
+        _refuse(numbers, range_check)
+    results = compute(*numbers.values())
+    first = results[0] if isinstance(results, tuple) else results
+    finite = math.isfinite(first) if isinstance(first, float) else first.max(initial=0.0) < math.inf
+    if not finite:
+        _refuse(numbers, range_check, first)
+    return results
+
+
+def _solved(model: Model, name: str, **inputs: Any) -> Any:
+    """Check the inputs, solve for the input of this name, and check its values.
+
+    In an array a place without a solution is NaN.
+    """
+    numbers = _numbers(inputs)
+    single = _are_floats(numbers)
+    usual = _in_range(numbers)
+    if not usual:
+        _refuse(numbers, lambda **_: None)
+    values = model(*numbers.values()) if single else _each(model, *numbers.values())
+    if not (usual and _in_range({name: values})):
+        _refuse_solutions(numbers, name, values, single)
+    return values
+
+
+def _numbers(inputs: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the inputs as floats and arrays of doubles that broadcast; raise an error if not."""
+    numbers = {name: x if type(x) is float else _real(name, x) for name, x in inputs.items()}
+    if not _are_floats(numbers):
         _common_shape(numbers)
+    return numbers
+
+
+def _are_floats(numbers: Mapping[str, Any]) -> bool:
+    return set(map(type, numbers.values())) == {float}
+
+
+def _in_range(numbers: Mapping[str, Any]) -> bool:
+    """Return whether no product of these numbers can leave the range of doubles."""
     for name, number in numbers.items():
         low, high = number, number
         if type(number) is not float:
             low, high = number.min(initial=1.0), number.max(initial=1.0)
         if not (0.0 if name in MAY_BE_ZERO else LEAST) <= low <= high <= GREATEST:
-            _refuse(numbers)
-            break
-    results = compute(*numbers.values())
-    first = results[0] if isinstance(results, tuple) else results
-    finite = math.isfinite(first) if isinstance(first, float) else first.max(initial=0.0) < math.inf
-    if not finite:
-        _refuse(numbers, first)
-    return results
+            return False
+    return True
 
 
 def _common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
@@ -217,30 +336,67 @@ def _real(name: str, value: Any) -> Any:
     raise TypeError(f"{name} must hold real numbers, in SI units, not {what}")
 
 
-def _refuse(numbers: Mapping[str, Any], result: Any = 0.0) -> None:
+def _refuse(
+    numbers: Mapping[str, Any], range_check: Callable[..., None], result: Any = 0.0
+) -> None:
     """Raise InputError for the first element that fails a check or has no finite result, if any."""
     import numpy as np
 
     arrays = np.broadcast_arrays(result, *numbers.values())
-    doubtful = np.any([~((array >= LEAST) & (array <= GREATEST)) for array in arrays[1:]], axis=0)
-    for place in np.argwhere(doubtful | ~np.isfinite(arrays[0])).tolist():
+    for place in np.argwhere(_unusual(arrays[1:]) | ~np.isfinite(arrays[0])).tolist():
         index = tuple(place)
         value, *values = (float(array[index]) for array in arrays)
         case = dict(zip(numbers, values, strict=True))
         try:
             check(case)
-            check_range(**case)
+            range_check(**case)
             if not math.isfinite(value):
                 raise _without_result(case, value)
         except InputError as error:
-            name, problem = error.name, error.problem
-            if name in numbers:  # give the index in that input's own array
-                shape = np.shape(numbers[name])
-                places = zip(index[len(index) - len(shape) :], shape, strict=True)
-                index = tuple(i if size > 1 else 0 for i, size in places)
-            elif name != "the sheet":
-                problem += f" (with {', '.join(f'{key} {x!r}' for key, x in case.items())})"
-            raise InputError(name, problem, index) from None
+            raise _at_place(error, index, case, numbers) from None
+
+
+def _refuse_solutions(numbers: Mapping[str, Any], name: str, result: Any, single: bool) -> None:
+    """Raise InputError for the first element, if any, whose solution leaves the range of models."""
+    import numpy as np
+
+    arrays = np.broadcast_arrays(result, *numbers.values())
+    # Of usual inputs NaN can only mean that there is no solution.
+    doubtful = _unusual(arrays[1:]) | (_unusual(arrays[:1]) & (single | ~np.isnan(arrays[0])))
+    for place in np.argwhere(doubtful).tolist():
+        index = tuple(place)
+        value, *values = (float(array[index]) for array in arrays)
+        case = dict(zip(numbers, values, strict=True))
+        try:
+            inverse.check_solution(name, value, **case)
+        except inverse.NoSolutionError:
+            if single:
+                raise
+        except InputError as error:
+            raise _at_place(error, index, case, numbers) from None
+
+
+def _unusual(arrays: Sequence[Any]) -> Any:
+    """Return where any of the arrays leaves the range in which no product has to be checked."""
+    import numpy as np
+
+    return np.any([~((array >= LEAST) & (array <= GREATEST)) for array in arrays], axis=0)
+
+
+def _at_place(
+    error: InputError, index: tuple[int, ...], case: Mapping[str, float], numbers: Mapping[str, Any]
+) -> InputError:
+    """Return an element's error with its index, and with its inputs if it is not one of them."""
+    import numpy as np
+
+    name, problem = error.name, error.problem
+    if name in numbers:  # give the index in that input's own array
+        shape = np.shape(numbers[name])
+        places = zip(index[len(index) - len(shape) :], shape, strict=True)
+        index = tuple(i if size > 1 else 0 for i, size in places)
+    elif name != "the sheet":
+        problem += f" (with {', '.join(f'{key} {x!r}' for key, x in case.items())})"
+    return InputError(name, problem, index)
 
 
 def _without_result(case: Mapping[str, float], result: float) -> InputError:
@@ -274,10 +430,10 @@ def _each(model: Model, *values: Any) -> Any:
     times = first[-1:] if model is motion.history else ()
     shape = np.broadcast_shapes(first[: len(first) - len(times)], *others)
     # A time, a sheet or a history takes as long as some hundred depths.
-    weight = 1 if model.__module__ == depth.__name__ else 100
+    weight = 100 if model.__module__ in (motion.__name__, sheet.__name__) else 1
     pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
     if pieces < 2 or threading.current_thread() is not threading.main_thread():
-        return function(*values)
+        return _evaluated(function, *values)
     from concurrent.futures import ThreadPoolExecutor
 
     import numba
@@ -288,12 +444,20 @@ def _each(model: Model, *values: Any) -> Any:
     results = [np.empty(shape + times, kind) for kind in function.types[0].partition("->")[2]]
 
     def work(*parts: Any) -> None:
-        function(*parts[: len(views)], out=parts[len(views) :])
+        _evaluated(function, *parts[: len(views)], out=parts[len(views) :])
 
     cut = [np.array_split(array, pieces, axis) for array in (*views, *results)]
     with ThreadPoolExecutor(numba.config.NUMBA_NUM_THREADS) as pool:
         list(pool.map(work, *cut))  # raises the error of a piece, if any
     return tuple(results) if len(results) > 1 else results[0]
+
+
+def _evaluated(function: Any, *values: Any, **options: Any) -> Any:
+    """Call a ufunc without NumPy's warnings: its results are checked, and errors named by place."""
+    import numpy as np
+
+    with np.errstate(all="ignore"):
+        return function(*values, **options)
 
 
 def ufunc(model: Model) -> Any:
@@ -356,10 +520,11 @@ def _make_known() -> None:
     import numpy as np
     from numba.extending import overload, register_jitable
 
-    for module in (crater, depth, impact, motion, sheet):
+    for module in (crater, depth, estimates, impact, inverse, motion, sheet):
         for function in vars(module).values():
             if inspect.isfunction(function) and function is not motion.zeros:
                 register_jitable(function)
+    overload(math.cbrt)(lambda x: lambda x: np.cbrt(x))  # noqa: ARG005
     overload(motion.zeros)(lambda rows, columns: lambda rows, columns: np.zeros((rows, columns)))  # noqa: ARG005
 
 

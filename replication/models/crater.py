@@ -52,13 +52,35 @@ def depth_from_volume_ratio(ratio: float) -> float:
 SQRT_3 = math.sqrt(3)
 
 
-def crater_depth(ratio: float) -> float:
-    """Normalized depth X/R [1] of a crater of CV/PV [1] that continues as a cylinder beyond X = R.
+def crater_depth(volume_ratio: float, radius: float = 1.0) -> float:
+    """Depth X [m] of a crater of volume ratio CV/PV [1], by a sphere of radius R [m] (Eqs. 2-3).
+
+    Up to X = R the crater is a cap of the sphere; a deeper one continues as a cylinder, as Eq. 13
+    takes the contact area to do. For a radius of 1 it is the normalized depth X/R.
 
     >>> crater_depth(0.5), crater_depth(2.0)
     (1.0, 3.0)
+    >>> f"{crater_depth(0.06, 11e-6) * 1e6:.1f}"
+    '3.3'
     """
-    return (1 + 4 * ratio) / 3 if ratio > 0.5 else depth_from_volume_ratio(ratio)
+    deep = volume_ratio > 0.5
+    y = (1 + 4 * volume_ratio) / 3 if deep else depth_from_volume_ratio(volume_ratio)
+    return radius * y
+
+
+def crater_volume_ratio(depth: float, radius: float = 1.0) -> float:
+    """Volume ratio CV/PV [1] of a crater of depth X [m], by a sphere of radius R [m] (Eqs. 2-3).
+
+    The inverse of `crater_depth`: beyond X = R the crater continues as a cylinder. For a radius of
+    1, the depth is the normalized depth X/R.
+
+    >>> f"{crater_volume_ratio(3.3e-6, 11e-6):.3f}"
+    '0.061'
+    >>> crater_volume_ratio(1.0), crater_volume_ratio(3.0)
+    (0.5, 2.0)
+    """
+    y = depth / radius
+    return (3 * y - 1) / 4 if y > 1 else volume_ratio(y)
 
 
 def contact_diameter(normalized_depth: float, diameter: float) -> float:

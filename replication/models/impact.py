@@ -8,7 +8,10 @@ from typing import Any
 STEP, STOP_VELOCITY = 2e-10, 1.0
 """The report's time step [s], and the velocity [m/s] below which its sheet stops."""
 
-MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity"})
+MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity", "particle_strength"})
+
+LEAST, GREATEST = 1e-40, 1e40
+"""`check_range` accepts all inputs in this range, as its products have at most six factors."""
 
 
 class InputError(ValueError):
@@ -29,7 +32,7 @@ class InputError(ValueError):
         return f"{self.name}{place} {self.problem}"
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Impact:
     """One case of section 3 and the appendix: all inputs of the spreadsheet.
 
@@ -74,6 +77,12 @@ class Impact:
             object.__setattr__(self, name, inputs[name])
         check(inputs)
         check_range(**self.motion, step=self.step)
+
+    def __repr__(self) -> str:
+        """The call that makes this case: without what is not given, or is the report's."""
+        given = {field.name: getattr(self, field.name) for field in fields(self)
+                 if getattr(self, field.name) != field.default}  # fmt: skip
+        return f"Impact({', '.join(f'{name}={value!r}' for name, value in given.items())})"
 
     @property
     def target_resistance(self) -> float:
@@ -128,33 +137,45 @@ zero
 
 
 def check_range(
-    velocity: float, particle_density: float, target_density: float, resistance: float,
-    radius: float = 1.0, step: float = 1.0, **_: float,
+    velocity: float = 1.0, particle_density: float = 1.0, target_density: float = 1.0,
+    resistance: float = 1.0, radius: float = 1.0, step: float = 1.0, **_: float,
 ) -> None:  # fmt: skip
     """Raise InputError where squares, products or ratios of the inputs (SI) leave 1e-250 to 1e250.
 
     Within that range no formula of the models overflows, underflows or divides by zero. Further
-    inputs, such as a time, are accepted and ignored, as no such product contains them.
+    inputs, such as a time, are accepted and ignored, as no such product contains them. An input
+    that a model does not take is left out: 1 changes no product.
     """
     mass = particle_mass(radius, particle_density)
     if not 0 < mass < math.inf:
         raise InputError("particle mass", f"is {mass!r}: it must be a number above zero")
-    _carried("target resistance", resistance)  # beta times flow stress may have underflowed to 0
-    _carried("step", step)
-    _carried("radius squared", radius * radius)
-    _carried("velocity squared", velocity * velocity)
-    _carried("particle density", particle_density)
-    _carried("target density", target_density)
+    carried("target resistance", resistance)  # beta times flow stress may have underflowed to 0
+    carried("step", step)
+    carried("radius squared", radius * radius)
+    carried("velocity squared", velocity * velocity)
+    carried("particle density", particle_density)
+    carried("target density", target_density)
     pressure = 0.5 * target_density * velocity * velocity
-    _carried("dynamic pressure", pressure)
-    _carried("dynamic pressure over target resistance", pressure / resistance)
+    carried("dynamic pressure", pressure)
+    carried("dynamic pressure over target resistance", pressure / resistance)
     ratio = particle_density / target_density
     # The depth over the radius is at most some 800 times this ratio, and histories square it.
-    _carried("ratio of the densities squared", ratio * ratio)
-    _carried("work", pressure / resistance * ratio)
+    carried("ratio of the densities squared", ratio * ratio)
+    carried("work", pressure / resistance * ratio)
 
 
-def _carried(name: str, value: float) -> None:
+def check_each(**inputs: float) -> None:
+    """Raise InputError for the first input, but for a zero, outside of `LEAST` to `GREATEST`.
+
+    For formulas with inputs that `check_range` does not know, this keeps every product in range.
+    """
+    for name, value in inputs.items():
+        if value and not LEAST <= value <= GREATEST:
+            problem = f"is {value!r}: it is computed with from {LEAST:g} to {GREATEST:g}"
+            raise InputError(name, problem)
+
+
+def carried(name: str, value: float) -> None:
     """Raise InputError unless the value is far enough from the ends of the range of doubles."""
     if not 1e-250 <= value <= 1e250:
         raise InputError(name, f"is {value!r}: doubles carry 1e-250 to 1e250 safely")

@@ -1,33 +1,25 @@
 """The report's Excel sheet, row by row (appendix, Eqs. A-1 to A-3; both branches of Eq. 13).
 
-Two schemes: "published" takes a row's deceleration at the row's middle depth but at its *initial*
-velocity, which makes it first order, though the report calls it a mid-point approximation;
-"centered" takes it at the middle velocity too, predicted by half a step, and is second order.
+A row's deceleration is taken at the row's middle depth, and at its *initial* velocity or, in the
+centered scheme, at the middle velocity that half a step predicts: see `reference.scheme.Scheme`.
 
 The order of operations matters: the workbook's formulas use the same one, so that both give the
 same double in every cell. Squares and cubes are written as products (`x * x`, not a power), and a
 row's time is `k * dt`, not a running sum.
 """
 
+import html
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from reference.scheme import Scheme
 from replication.models.impact import Impact, InputError, particle_mass
 
 if TYPE_CHECKING:
     import pandas as pd
 
-
-class Scheme(NamedTuple):
-    """A scheme: the order of its time-step error, and the velocity of a row that sets the drag."""
-
-    order: int
-    drag_at: str
-
-
-SCHEMES = {"published": Scheme(1, "initial"), "centered": Scheme(2, "middle")}
 
 MAX_STEPS = 1_000_000
 """A sheet that needs more steps is refused; Excel has 1,048,576 rows."""
@@ -47,13 +39,33 @@ class Row(NamedTuple):
     velocity_final: float | None
 
 
-@dataclass(frozen=True, slots=True)
+UNITS = {
+    "time": "s",
+    "velocity_initial": "m/s",
+    "depth": "m",
+    "deceleration": "m/s^2",
+    "velocity_final": "m/s",
+}
+"""The SI unit of each field of a row."""
+
+
+@dataclass(frozen=True, slots=True, repr=False)
 class Sheet:
     """The rows of one case, and the results that the report reads from the last one."""
 
     impact: Impact
-    rows: tuple[Row, ...] = field(repr=False)  # up to a million
-    scheme: str = "published"
+    rows: tuple[Row, ...]  # up to a million
+    scheme: Scheme = Scheme.PUBLISHED
+
+    def __repr__(self) -> str:
+        depth = f"{self.final_depth * 1e6:.6g} um, X/R {self.normalized_depth:.6g}"
+        return f"<{self.scheme} sheet, {self.steps} steps of {self.impact.step:g} s: {depth}>"
+
+    def _repr_html_(self) -> str:
+        """The sheet as notebooks show it: its first and last rows, with units."""
+        heads = [f"{name} [{unit}]" for name, unit in UNITS.items()]
+        table = self.frame().set_axis(heads, axis="columns").to_html(max_rows=12)
+        return f"<p>{html.escape(repr(self)[1:-1])}</p>{table}"
 
     @property
     def steps(self) -> int:
@@ -77,13 +89,14 @@ class Sheet:
         return pd.DataFrame(self.rows, dtype="float64").rename_axis("row")
 
 
-def run(impact: Impact, scheme: str = "published") -> Sheet:
+def run(impact: Impact, scheme: str = Scheme.PUBLISHED) -> Sheet:
     """Run the report's sheet for one impact, up to the first row below the stop velocity.
 
-    The scheme "published" takes a row's drag at its initial velocity v, "centered" at its middle
-    velocity, v - a dt/2 with the deceleration a at x and v (appendix, Eqs. A-1 to A-3). Raises
-    TypeError if `impact` is not an `Impact`, and ValueError if more than `MAX_STEPS` rows are
-    needed or the last row leaves the range of doubles.
+    The scheme, a `Scheme` or its text, is "published" if a row's drag is taken at its initial
+    velocity v, or "centered" if at its middle velocity, v - a dt/2 with the deceleration a at x and
+    v (appendix, Eqs. A-1 to A-3). Raises TypeError if `impact` is not an `Impact`, and ValueError
+    for another scheme, or if more than `MAX_STEPS` rows are needed or the last row leaves the range
+    of doubles.
 
     >>> from replication.cases import BETA_5
     >>> sheet = run(BETA_5)
@@ -92,11 +105,11 @@ def run(impact: Impact, scheme: str = "published") -> Sheet:
     """
     if not isinstance(impact, Impact):
         raise TypeError(f"give an Impact, such as BETA_5, not {impact!r}")
-    check_scheme(scheme)
+    scheme = Scheme(scheme)
     dt, v_stop = impact.step, impact.stop_velocity
     inputs = *impact.motion.values(), dt, v_stop
     touch = Row(0.0, impact.velocity, 0.0, 0.0, None)
-    rows = touch, *map(Row._make, _rows(scheme == "centered", *inputs))
+    rows = touch, *map(Row._make, _rows(scheme is Scheme.CENTERED, *inputs))
     _, v, x, a, v_final = rows[-1]
     if (v if v_final is None else v_final) >= v_stop:
         raise refusal(math.nan, dt, v_stop)
@@ -166,9 +179,3 @@ def refusal(depth: float, step: float, stop_velocity: float) -> InputError:
         steps = f"more than {MAX_STEPS:,} steps of {step!r} s"
         problem = f"takes {steps} down to {stop_velocity!r} m/s: take a larger step"
     return InputError("the sheet", problem)
-
-
-def check_scheme(scheme: str) -> None:
-    """Raise ValueError for a scheme that is not one of `SCHEMES`."""
-    if scheme not in [*SCHEMES]:  # a list, as a set would need a hashable scheme
-        raise ValueError(f"there is no scheme {scheme!r}: choose one of {', '.join(SCHEMES)}")

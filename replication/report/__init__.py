@@ -4,21 +4,20 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from hashlib import sha256
-from string import ascii_lowercase
 from textwrap import fill
 from typing import Any
 
-import msgspec
+from msgspec.structs import replace
 
-from reference import findings as asserted
-from reference.ledger import INFERRED, Ledger, in_header
+from reference.ledger import INFERRED, Ledger
 from replication import page
-from replication.audit.record import ClaimRecord, Record, Verdict
-from replication.power import measured
-from replication.report import words
+from replication.audit.record import ClaimRecord, EquationRecord, Finding, Record
+from replication.report import tables, words
+from replication.report.arrangement import Arrangement
+from replication.report.document import audit_document
 from replication.report.figures import draw
-from replication.report.words import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
-from replication.text import Table, between, columns, json_text, number, quantity, rows_csv
+from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
+from replication.text import Table, columns, json_text, number, quantity, rows_csv, table_text
 
 FILES = (
     "audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt", "workbook.xlsx",
@@ -31,14 +30,14 @@ def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return every file of the folder by name; the record names those `beside` it with hashes."""
     hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
     provenance = record.provenance | {"sha256": record.provenance["sha256"] | hashes}
-    record = msgspec.structs.replace(record, provenance=provenance)
-    drawings = draw(record)
+    record = replace(record, provenance=provenance)
+    drawings, document = draw(record), audit_document(record)
     texts = {
         "audit.html": html(record, drawings),
         "audit.md": markdown(record),
-        "audit.csv": _csv(record),
+        "audit.csv": _csv(document["claims"]),
         **{f"figures/{name}.svg": drawing for name, drawing in drawings.items()},
-        "audit.json": json_text(record),
+        "audit.json": json_text(document),
     }
     return {**beside, **{name: text.encode() for name, text in texts.items()}}
 
@@ -50,30 +49,38 @@ _COLUMNS = (
 )  # fmt: skip
 
 
-def _csv(record: Record) -> str:
-    """Write one row for each claim; fields that do not apply are empty."""
+def _csv(claims: Sequence[Mapping[str, Any]]) -> str:
+    """Write one row for each claim of `audit.json`; fields that do not apply are empty."""
     rows = []
-    for claim in record.claims:
-        row = {name: getattr(claim, name, None) for name in _COLUMNS}
+    for claim in claims:
+        row = {name: claim.get(name) for name in _COLUMNS}
         for name in ("interval", "enclosure"):
-            row[f"{name}_lower"], row[f"{name}_upper"] = getattr(claim, name) or (None, None)
+            row[f"{name}_lower"], row[f"{name}_upper"] = claim[name] or (None, None)
         rows.append(row)
     return rows_csv(rows)
 
 
 def html(record: Record, drawings: Mapping[str, str]) -> str:
     """Write the page, with the figures; it has no scripts and loads nothing from outside."""
-    parts = _arranged(record) | {"drawings": drawings, "head": page.head("replication.report")}
-    return _filled("page.html.j2", Prose(HTML, record.symbols, parts["names"]), parts)
+    arranged = Arrangement(record)
+    prose = Prose(HTML, record.symbols, arranged.names)
+    parts = {"drawings": drawings, "head": page.head("replication.report")}
+    return _from_template("page.html.j2", prose, {**_common(arranged), **parts})
 
 
 def markdown(record: Record) -> str:
     """Write the same as Markdown, without the figures."""
-    parts = _arranged(record)
-    return _filled("page.md.j2", Prose(MARKDOWN, record.symbols, parts["names"]), parts)
+    arranged = Arrangement(record)
+    prose = Prose(MARKDOWN, record.symbols, arranged.names)
+    return _from_template("page.md.j2", prose, _common(arranged))
 
 
-def _filled(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
+def _common(arranged: Arrangement) -> dict[str, Any]:
+    """Return what page and Markdown are made of."""
+    return {"record": arranged.record, "arranged": arranged, "words": words, "tables": tables}
+
+
+def _from_template(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
     """Fill a template of this folder; outside HTML, reduce several empty lines to one."""
     from markupsafe import Markup
 
@@ -81,80 +88,15 @@ def _filled(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
     filters = {
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
-        "printed": words.printed,
+        "with_unit": words.with_unit,
         # A macro returns Markup: str() keeps jinja2 from escaping in it what `prose` escapes.
         "prose": cache(lambda sentence: finished(prose(str(sentence)))),
         "quoted": quoted,
+        "quantity": quantity,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
-    text = page.filled("replication.report", name, parts, filters).lstrip()
+    text = page.from_template("replication.report", name, parts, filters).lstrip()
     return text if prose.form is HTML else re.sub(r"\n{3,}", "\n\n", text)
-
-
-def _arranged(record: Record) -> dict[str, Any]:
-    """Return what page and Markdown need: the record, its claims by section, and helpers."""
-    groups, names = _groups(record), words.names_of(record)
-    by_hand_first = sorted(record.findings, key=lambda finding: not finding.by_hand)
-    concerned = {name for finding in record.findings for name in finding.claims}
-    sources = {claim.id: claim.sources for claim in record.claims}
-    sources |= {f"{INFERRED}{i.id}": i.sources for i in record.inferred if i.sources}
-    return {
-        "record": record,
-        "groups": groups,
-        "names": names,
-        "quantity": quantity,
-        "tables": words,
-        "between": between,
-        "equation_of": {c.claim: e for e in record.equations for c in e.constants},
-        # The findings that concern mostly what does not come out as printed.
-        "on_open": [
-            finding
-            for finding in record.findings
-            if 2 * sum(name in groups["open"] for name in finding.claims) >= len(finding.claims)
-        ],
-        "touching": {name: [f for f in by_hand_first if name in f.claims] for name in concerned},
-        "sources": {name: records for name, records in sources.items() if records},
-        "table": _table_a_1(groups["table-a-1"]),
-        "power": measured(),
-    }
-
-
-def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
-    """Sort the claims into the sections of the page; each is in one section only."""
-    constants = {c.claim for equation in record.equations for c in equation.constants}
-    by_verdict = {
-        Verdict.REPRODUCED: "computed", Verdict.CONSISTENT: "repeated", Verdict.AGREES: "sources",
-        Verdict.DIFFERS: "sources", Verdict.REMARK: "remarks", Verdict.NOT_CHECKABLE: "undecided",
-    }  # fmt: skip
-    names = ("open", "equations", "table-a-1", *dict.fromkeys(by_verdict.values()))
-    groups: dict[str, dict[str, ClaimRecord]] = {name: {} for name in names}
-    for claim in record.claims:
-        name = by_verdict.get(claim.verdict, "open")
-        if name != "open" and claim.id in constants:
-            name = "equations"
-        elif name != "open" and claim.cell:
-            name = "table-a-1"
-        groups[name][claim.id] = claim
-    return groups
-
-
-def _table_a_1(claims: dict[str, ClaimRecord]) -> dict[str, Any]:
-    """Arrange Table A-1 as printed, with a letter for each verdict and its conventions."""
-    cells = {str(claim.cell): claim for claim in claims.values()}
-    notes = {c.id: (c.verdict, c.holds or c.explanation) for c in claims.values()}
-    letters = dict(zip(dict.fromkeys(notes.values()), ascii_lowercase, strict=False))
-    below = [cell for cell in cells if not in_header(cell)]
-    heads = {cell[0]: cells[cell].title.partition(",")[0] for cell in below}
-    columns, rows = sorted(heads), sorted({int(cell[1:]) for cell in below})
-    return {
-        "header": [claim for cell, claim in cells.items() if in_header(cell)],
-        "heads": [heads[column] for column in columns],
-        # A cell without a claim in this section is blank, or fails and is shown further up.
-        "rows": [[cells.get(c + str(row), c + str(row)) for c in columns] for row in rows],
-        "letters": letters,
-        "marks": {name: letters[note] for name, note in notes.items()},
-        "assumed": "; ".join(dict.fromkeys(a for c in claims.values() for a in c.assumes)),
-    }
 
 
 # For a terminal
@@ -172,52 +114,99 @@ FINDINGS = 3
 def summary(record: Record, width: int, strong: bool = False) -> str:
     """Write the audit on one screen: headline, counts, what fails, main results, findings."""
     main = [
-        (c.title, words.printed(c), words.measured(c.computed, c.unit), c.verdict)
+        (c.claim.title, words.with_unit(c.claim), words.measured(c.computed, c.claim.unit),
+         c.verdict)
         for c in record.claims
         if c.id in MAIN and c.computed is not None
-    ]
-    context = {
+    ]  # fmt: skip
+    parts = {
         "record": record,
-        "not_as_printed": words.not_as_printed(record),
+        "words": words,
+        "not_as_printed": tables.not_as_printed(record),
         "main": Table("Main results", ("number", "printed", "computed", "verdict"), main),
-        "shown": FINDINGS,
+        "findings": record.findings[:FINDINGS],
+        "more": len(record.findings[FINDINGS:]),
     }
     by_title = TERMINAL._replace(known="{title}")
     prose = Prose(by_title, record.symbols, words.names_of(record))
-    return _terminal(prose, context, width, strong)
+    return _on_terminal("summary.txt.j2", prose, parts, width, strong)
 
 
-def proof(claim: ClaimRecord, ledger: Ledger, width: int, strong: bool = False) -> str:
-    """Write one claim with all that its verdict rests on; other entries are named by the ledger."""
+def proof(
+    claim: ClaimRecord,
+    findings: Sequence[Finding],
+    ledger: Ledger,
+    width: int,
+    strong: bool = False,
+) -> str:
+    """Write one claim with all that its verdict rests on, and the titles of the findings on it.
+
+    Other entries are named by the ledger.
+    """
+    names = _names(ledger)
+    parts = {
+        "record": claim,
+        "facts": tables.facts(claim, names),
+        "tables": tables.tried(claim),
+        "findings": findings,
+    }
+    return _on_terminal("claim.txt.j2", _prose(ledger, names), parts, width, strong)
+
+
+def equation_proof(
+    equation: EquationRecord,
+    findings: Sequence[Finding],
+    ledger: Ledger,
+    width: int,
+    strong: bool = False,
+) -> str:
+    """Write one equation with what its verdict rests on, and the titles of the findings on it."""
+    shown = tables.constants(equation, ledger), tables.repairs(equation.repairs)
+    parts = {
+        "record": equation,
+        "title": words.equation_title(equation),
+        "tables": [table for table in shown if table.rows],
+        "findings": findings,
+    }
+    prose = _prose(ledger, _names(ledger))
+    return _on_terminal("equation.txt.j2", prose, parts, width, strong)
+
+
+def _names(ledger: Ledger) -> dict[str, Named]:
+    """Return what every id of the ledger refers to."""
     names = {name: Named(e.title) for name, e in ledger.equations.items()}
     for name, inferred in ledger.inferred.items():
         value = words.measured(float(inferred.nominal), inferred.unit)
         names[f"{INFERRED}{name}"] = Named(inferred.title, value=value)
     for name, entry in ledger.claims.items():
-        names[name] = Named(entry.title, value=quantity(entry.shown, entry.unit))
-    findings = (f for f in asserted.load().values() if f.kind != "headline")
-    context = {
-        "record": None,
-        "claim": claim,
-        "facts": words.facts(claim, names),
-        "tables": words.tried(claim),
-        "findings": [finding.title for finding in findings if claim.id in finding.claims],
-    }
+        names[name] = Named(entry.title, value=words.with_unit(entry))
+    return names
+
+
+def _prose(ledger: Ledger, names: Mapping[str, Named]) -> Prose:
     symbols = (symbol.shown for symbol in ledger.symbols.values())
-    return _terminal(Prose(TERMINAL, symbols, names), context, width, strong)
+    return Prose(TERMINAL, symbols, names)
 
 
-def _terminal(prose: Prose, context: Mapping[str, Any], width: int, strong: bool) -> str:
-    def filled(text: str, indent: str = "") -> str:
+def _on_terminal(
+    name: str, prose: Prose, parts: Mapping[str, Any], width: int, strong: bool
+) -> str:
+    def wrapped(text: str, indent: str = "") -> str:
         hanging = indent and indent + "  "
         return fill(
             text, width, initial_indent=indent, subsequent_indent=hanging,
             break_on_hyphens=False, break_long_words=False,
         )  # fmt: skip
 
-    def table(rows: Sequence[tuple[str, ...]]) -> str:
+    def in_columns(rows: Sequence[tuple[str, ...]]) -> str:
         return columns([tuple(map(prose, row)) for row in rows], width)
 
+    def as_table(table: Table) -> str:
+        heads, *rows = (tuple(map(prose, row)) for row in (table.heads, *table.rows))
+        return table_text(Table("", heads, rows), width)
+
     bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
-    helpers = {"fill": filled, "columns": table, "strong": bold.format}
-    return _filled("terminal.txt.j2", prose, {**context, **helpers}).rstrip("\n")
+    helpers = {
+        "fill": wrapped, "columns": in_columns, "table_text": as_table, "strong": bold.format,
+    }  # fmt: skip
+    return _from_template(name, prose, {**parts, **helpers}).rstrip("\n")

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from html import escape
 from math import log10
 
+from reference.scheme import Scheme
 from replication.audit.record import Record
-from replication.models.sheet import SCHEMES
 from replication.report.words import shown_range
 
 INK, BLUE, VERMILION = "currentColor", "#0072b2", "#d55e00"
@@ -179,9 +179,9 @@ def _comparison(record: Record) -> _Plot:
     plot.axes([k / 5 for k in range(6)], [], "Normalized depth X/R")
     plot.rows([f"{a.kind}: {a.name}".replace(", ", ",; ").replace("beta", "β") for a in shown])
     for y, a in enumerate(shown):
-        if a.printed:
+        if a.shown:
             kind = ("hollow diamond", INK) if a.computed is None else ("hollow square", VERMILION)
-            plot.marks(*kind, [(float(a.printed), y)])
+            plot.marks(*kind, [(float(a.shown), y)])
         if a.computed is not None:
             plot.marks("circle", BLUE, [(a.computed, y)])
     plot.legend(100, height + 60, {
@@ -192,9 +192,9 @@ def _comparison(record: Record) -> _Plot:
     })  # fmt: skip
     values = []
     for a in record.approaches:
-        value = f"{a.printed}, quoted by the report and not recomputable"
+        value = f"{a.shown}, quoted by the report and not recomputable"
         if a.computed is not None:
-            value = f"{a.computed:.3f} computed" + (f", printed {a.printed}" if a.printed else "")
+            value = f"{a.computed:.3f} computed" + (f", printed {a.shown}" if a.shown else "")
         values.append(f"{a.kind}, {a.name}: {value}")
     plot.words = f"{'; '.join(values)}.".replace("beta", "β")
     return plot
@@ -244,10 +244,10 @@ def _figure_3(record: Record) -> _Plot:
         x, y = plot.at(*exact[-1])
         time, depth = sheet[-1]
         plot.text(x + 8, y, f"{depth:.4f} µm,")
-        plot.text(x + 8, y + 14, f"printed {curve.printed}")
+        plot.text(x + 8, y + 14, f"printed {curve.shown}")
         words.append(
             f"for β = {curve.beta:g} the sheet stops at {depth:.4f} µm after {time:.1f} ns "
-            f"(printed {curve.printed}), the exact depth at rest is {exact[-1][1]:.4f} µm"
+            f"(printed {curve.shown}), the exact depth at rest is {exact[-1][1]:.4f} µm"
         )
     plot.words = (
         f"Depth rises ever more slowly to rest: {'; '.join(words)}. At this scale they coincide."
@@ -264,9 +264,7 @@ def _figure_5(record: Record) -> _Plot:
     plot = _Plot(title, (44, 8, 386, 230), (low - 5, high + 5), (0, 0.8))
     ratios = [k / 10 for k in range(9)]
     plot.axes(range(400, 501, 20), ratios, "Impact velocity [m/s]", "Normalized depth X/R")
-    observed = next(
-        float(a.printed) for a in record.approaches if a.kind == "observed" and a.printed
-    )
+    observed = next(float(a.shown) for a in record.approaches if a.kind == "observed" and a.shown)
     plot.line(zip(curve.velocity, curve.exact, strict=True))
     plot.line([(x, observed) for x in plot.x], INK, "5 3")
     plot.marks("square", BLUE, list(zip(curve.velocity, curve.sheet, strict=True))[::2])
@@ -300,7 +298,7 @@ def _convergence(record: Record) -> _Plot:
         kind = kind if beta == greatest else f"hollow {kind}"
         plot.line(points, color)
         plot.marks(kind, color, points)
-        name = f"drag at the {SCHEMES[scheme].drag_at} velocity, β = {beta:g}"
+        name = f"drag at the {Scheme(scheme).drag_at} velocity, β = {beta:g}"
         legend[name] = (kind, color)
         errors = ", ".join(f"{error:.2g} nm at {step:g} ns" for step, error in points[::2])
         words.append(f"{name}: {errors}")

@@ -1,42 +1,50 @@
-"""Sentences and tables about a record and its claims, shared by HTML page, Markdown and terminal.
+"""Sentences about a record and its claims, shared by HTML page, Markdown and terminal.
 
-They are plain text with ids between backticks. `Prose` then typesets Greek letters, subscripts and
-powers in them, and turns ids into references.
+They are plain text, with ids between backticks: `Prose` typesets them.
 """
 
-import re
-import unicodedata
-from collections.abc import Callable, Iterable, Mapping
-from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
-from fractions import Fraction
-from html import escape
-from html.entities import html5
-from typing import NamedTuple
+from collections.abc import Mapping, Sequence
 
-from reference.ledger import shown
-from reference.units import superscript
+from reference.ledger import Claim
 from replication.audit import record as r
-from replication.audit.comparison import SHARES
+from replication.audit.assessment import Verdict
 from replication.cases import INPUTS
-from replication.models.sheet import SCHEMES
-from replication.text import Table, between, number, powers_of_ten, quantity, rounded
+from replication.power import Power
+from replication.report.prose import Named, quoted
+from replication.text import between, number, quantity
+
+ABOUT = (
+    "The report, on cold spray, asks how deep a metal particle penetrates the surface that it "
+    "strikes. It solves an equation of motion in an Excel sheet, and compares the depth with "
+    "experiment, with two hydrocodes and with the model of Frank and Zook (Eq. 16). This audit "
+    "recomputes every number for which the report gives the means."
+)
+
+MEANINGS: Mapping[Verdict, str] = {
+    Verdict.REPRODUCED: "the value computed from the inputs as printed rounds to the printed one, "
+    "for every admitted value of an input that the report does not print",
+    Verdict.WITHIN_ROUNDING: "the inputs as printed do not give it; some inputs that round to the "
+    "printed ones do",
+    Verdict.NOT_REPRODUCED: "no inputs that print like the report's give it (proven)",
+    Verdict.UNDECIDED: "neither of these could be proven",
+    Verdict.CONSISTENT: "it repeats another number of the report, or is a choice that agrees with "
+    "what is computed from it; nothing new is shown",
+    Verdict.INCONSISTENT: "it repeats another number of the report, or is a choice, and does not "
+    "agree",
+    Verdict.AGREES: "the report does not derive it; a public source prints it",
+    Verdict.DIFFERS: "the report does not derive it; the sources at hand print something else",
+    Verdict.REMARK: "words, not a number, with figures to judge them by",
+    Verdict.NOT_CHECKABLE: "it rests on data, a choice or a code that the report does not give",
+}
+"""What each verdict says."""
 
 
-class Named(NamedTuple):
-    """What an id between backticks refers to: its title, its anchor on the page, its value."""
-
-    title: str
-    anchor: str = ""
-    value: str = ""
+# Numbers
 
 
-NO_VALUE = "no value"
-"""Shown for a quantity that cannot be computed from misprinted inputs."""
-
-
-def printed(claim: r.ClaimRecord) -> str:
-    """Return what the report prints: a number with its unit, or the words of a remark."""
-    return quantity(shown(claim.printed), claim.unit)
+def with_unit(claim: Claim) -> str:
+    """Return what the report prints, as it is shown: a number with its unit, or the words."""
+    return quantity(claim.shown, claim.unit)
 
 
 def measured(value: float | None, unit: str, digits: int = 6) -> str:
@@ -62,337 +70,110 @@ def shown_range(effect: r.Effect) -> str:
     return quantity(between((effect.low * scale, effect.high * scale), 4), unit)
 
 
+# What an id refers to
+
+
+def equation_title(record: r.EquationRecord) -> str:
+    """Return the title of an equation, after its number if it has one."""
+    title = record.equation.title
+    return f"Eq. {record.number}, {title}" if record.number else title
+
+
 def names_of(record: r.Record) -> dict[str, Named]:
     """Return what each id of a record refers to."""
     equations = {
-        e.id: Named(f"Eq. {e.number}" if e.number else e.title, f"equation-{e.id}")
+        e.id: Named(f"Eq. {e.number}" if e.number else e.equation.title, f"equation-{e.id}")
         for e in record.equations
     }
     inferred = {
-        f"inferred:{i.id}": Named(i.title, f"inferred-{i.id}", measured(i.assumed, i.unit))
+        f"inferred:{i.id}": Named(
+            i.entry.title, f"inferred-{i.id}", measured(i.assumed, i.entry.unit)
+        )
         for i in record.inferred
     }
-    claims = {c.id: Named(c.title, f"claim-{c.id}", printed(c)) for c in record.claims}
+    claims = {
+        c.id: Named(c.claim.title, f"claim-{c.id}", with_unit(c.claim)) for c in record.claims
+    }
     return equations | inferred | claims
 
 
-def facts(claim: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, str]]:
-    """Return what is known of a claim, beside verdict and explanation, as labels and texts."""
-    unit, error, choice = claim.unit, claim.error_in_last_digit, claim.shown_by
-    inputs = (
-        " × ".join(f"`{name}` {names[name].value}" for name in entries)
-        for entries in claim.rests_on.values()
+# Sentences
+
+
+def counted(counts: r.Counts) -> str:
+    """Say how many numbers and equations come out as printed."""
+    numbers = "number does" if counts.failing == 1 else "numbers do"
+    equations = "does" if counts.equations_failing == 1 else "do"
+    return (
+        f"{counts.reproduced} of the report’s {counts.numbers} numbers come out as printed: "
+        f"{counts.constants} factors and powers in its equations, and {counts.computed} other "
+        f"numbers, of {counts.values} different values. {counts.failing} {numbers} not follow from "
+        f"what it says. Of the {counts.equations} equations, {counts.equations_derived} follow "
+        f"from earlier ones or from mechanics, and {counts.equations_failing} {equations} not; the "
+        "others are definitions or from the literature."
     )
-    readings = (
-        f"{reading.name}: {measured(reading.computed, unit, 10)}, {reading.verdict}, "
-        f"proven range {between(reading.enclosure)}. {reading.holds}"
-        + (f" For instance (SI) {_values(reading.witness)}." if reading.witness else "")
-        for reading in claim.readings
+
+
+def entries(counts: r.Counts) -> str:
+    """Say how many entries the ledger has."""
+    return (
+        f"Together with {counts.remarks} comparisons in words, these numbers make "
+        f"{counts.entries} entries."
     )
-    sources = (
-        f"{s.title}, {s.address}, prints {quantity(s.says, s.unit)} ({s.applies})"
-        for s in claim.sources
-    )
-    texts = {
-        "rounds to it": quantity((claim.interval_text or "").replace("E", "e"), unit),
-        "computed": measured(claim.computed, unit, 10),
-        "to 25 digits": claim.reference,
-        "proven range": claim.enclosure and between(claim.enclosure),
-        "off by": error is not None
-        and claim.verdict.is_open
-        and f"{number(error, 3)} units of the last printed digit",
-        "computed from": claim.computed is not None and ", ".join(inputs),
-        "for instance (SI)": claim.witness and _values(claim.witness),
-        "other readings": "; ".join(readings),
-        "assumed": "; ".join(claim.assumes),
-        "would still agree": choice
-        and f"{quantity(between(choice.interval, 6, inward=True), choice.unit)}, by "
-        + ", ".join(f"`{name}`" for name in choice.claims),
-        "public sources": "; ".join(sources),
-        "workbook cell": claim.workbook and f"`{claim.workbook}`",
-    }
-    return [(label, text.removesuffix(".")) for label, text in texts.items() if text]
 
 
-def _values(values: Mapping[str, float]) -> str:
-    return ", ".join(f"`{name}` {number(value, 10)}" for name, value in values.items())
+def culprit(record: r.Record) -> str:
+    """Say that one misprint would explain all failures; empty if none would."""
+    if record.culprit is None:
+        return ""
+    return f"One misprint would explain {len(record.failing)} of the failures"
 
 
-def not_as_printed(record: r.Record) -> Table:
-    """Return what is printed and what follows instead, for each claim that fails or is undecided.
-
-    Each reading of an equation has a column.
-    """
-    claims = [claim for claim in record.claims if claim.verdict.is_open]
-    needed = {c.claim: c.needed for equation in record.equations for c in equation.constants}
-    as_printed = "computed as printed"
-    readings = (reading.name for claim in claims for reading in claim.readings)
-    *_, last = heads = tuple(dict.fromkeys([as_printed, *readings]))
-    rows = []
-    for claim in claims:
-        values = {as_printed: claim.computed, **{x.name: x.computed for x in claim.readings}}
-        texts = {name: f"{value:#.{significant(claim.printed)}g}"
-                 for name, value in values.items() if value is not None}  # fmt: skip
-        if claim.id in needed:
-            texts[last] = "derived: " * (last == as_printed) + " or ".join(needed[claim.id])
-        rows.append((f"`{claim.id}`", printed(claim), *(texts.get(head, "") for head in heads)))
-    return Table("What does not come out as printed", ("number", "printed", *heads), rows)
+def swap(repair: r.Repair) -> str:
+    """Return what a repair changes: the text instead of the original."""
+    return f"{quoted(repair.text)} for {quoted(repair.original)}"
 
 
-def significant(text: str) -> int:
-    """Count the significant digits of a printed number.
-
-    >>> significant("0.0550"), significant(">= 2680"), significant("7.6E9")
-    (3, 4, 2)
-    """
-    mantissa = re.split(r"[eE×\\]", text)[0]
-    return len(re.sub(r"\D", "", mantissa).lstrip("0")) or 1
-
-
-def tried(claim: r.ClaimRecord) -> list[Table]:
-    """Return the explanations tried for a claim that fails, and the figures that judge a remark."""
-    figures = [(f.means, measured(f.value, f.unit, 5) or NO_VALUE) for f in claim.figures]
-    slips = [
-        (s.name, s.reason, measured(s.value, "1", 3) or NO_VALUE, s.fits or "no")
-        for s in claim.slips
+def inferred(records: Sequence[r.InferredRecord]) -> str:
+    """Say what is known of an input that the report does not print, under every scheme."""
+    entry, last = records[0].entry, records[-1]
+    sentences = [
+        f"The report prints the {entry.title} nowhere.",
+        f"The audit computes with {measured(last.assumed, entry.unit)}: {entry.nominal_source}.",
     ]
-    inputs = []
-    for entry in dict.fromkeys(solved.entry for solved in claim.back_solved):
-        by_reading = [solved for solved in claim.back_solved if solved.entry == entry]
-        first, needed = by_reading[0], map(_needed, by_reading)
-        search = f"{between(first.search, 4)}: {first.search_reason}"
-        inputs.append((f"`{entry}`", measured(first.printed, first.unit), *needed, search))
-    readings = dict.fromkeys(solved.reading or "as printed" for solved in claim.back_solved)
-    heads = ("input", "printed", *(f"needed, {reading}" for reading in readings), "searched")
-    changed = "Proven values of one input that would give the number, all others as printed"
-    tables = (
-        Table("The figures to judge it by", ("what", "computed"), figures),
-        Table(changed, heads, inputs),
-        repairs(claim.repairs, claim.id),
-        Table("Slips the author may have made", ("slip", "what it is", "gives", "fits"), slips),
-    )
-    return [shown for shown in tables if shown.rows]
-
-
-def _needed(solved: r.BackSolvedRecord) -> str:
-    if not solved.intervals:
-        return "undecided" if solved.proof == r.Proof.UNDECIDED else "none"
-    ends = ", ".join(between(ends, 6, inward=True) for ends in solved.intervals)
-    beyond = " or beyond" if solved.proof == r.Proof.TO_AN_END else ""
-    return quantity(ends, solved.unit) + beyond
-
-
-def repairs(records: Iterable[r.RepairRecord], claim: str = "") -> Table:
-    """Return the misprints that would make a claim or equation agree.
-
-    A claim, named by its id, is not listed among those that still fail: where another reading of
-    its equation agrees, it fails only as printed.
-    """
-    rows = []
-    for repair in records:
-        failing = ", ".join(f"`{name}`" for name in repair.failing if name != claim) or "nothing"
-        texts = f"`{repair.entry}`", quoted(repair.printed), quoted(repair.text)
-        rows.append((*texts, repair.kind, repair.reading or "as printed", failing))
-    heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
-    caption = "Misprints that would give it: one edit of the text, all else as printed"
-    return Table(caption, heads, rows)
-
-
-def evidence(finding: r.FindingRecord) -> Table:
-    """Return the numbers of a finding, as stated and as computed."""
-    rows = [
-        (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
-        for x in finding.evidence
-    ]
-    return Table("The finding's numbers, recomputed", ("what", "stated", "computed"), rows)
-
-
-def computed(piece: r.EvidenceRecord) -> str:
-    """Return a finding's computed number, with two digits more than the stated one.
-
-    A number that must exceed a bound is rounded down, one that must stay below is rounded up.
-
-    >>> piece = r.EvidenceRecord(
-    ...     name="", means="", unit="1", asserted=">= 1.147", computed=1.1475699, holds=True
-    ... )
-    >>> computed(piece)
-    '1.14756'
-    """
-    if piece.computed is None:
-        return NO_VALUE
-    if isinstance(piece.computed, bool):
-        return "yes" if piece.computed else "no"
-    safe = {">": ROUND_FLOOR, "<": ROUND_CEILING}.get(piece.asserted[:1], ROUND_HALF_EVEN)
-    digits = significant(piece.asserted) + 2
-    return quantity(rounded(Fraction(piece.computed), digits, safe), piece.unit)
-
-
-def proven(claims: Iterable[r.ClaimRecord]) -> Table:
-    """Return the computed cells of Table A-1 to ten digits, with their proven ranges."""
-    rows = [
-        (c.title, c.cell or "", measured(c.computed, c.unit, 10), between(c.enclosure))
-        for c in claims
-        if c.enclosure is not None
-    ]
-    return Table("Cells of Table A-1", ("what", "cell", "computed", "proven range"), rows)
-
-
-def approaches(record: r.Record) -> Table:
-    """Return X/R by every approach."""
-    rows = [
-        (f"{a.kind}: {a.name}",
-         "not recomputable" if a.computed is None else number(a.computed, 5),
-         f"{a.printed} `{a.claim}`" if a.claim else "")
-        for a in record.approaches
-    ]  # fmt: skip
-    return Table("Normalized depth X/R", ("approach", "computed", "printed"), rows)
-
-
-def ladders(record: r.Record) -> Table:
-    """Return the sheet's final depth: a row for each time step, a column for case and scheme."""
-    columns = dict.fromkeys((level.beta, level.scheme) for level in record.ladders)
-    rows: dict[float, list[str]] = {}
-    for level in record.ladders:
-        text = f"{level.depth * 1e6:.6f} ({level.error * 1e9:+.3f})"
-        rows.setdefault(level.step, [f"{number(level.step * 1e9)} ns"]).append(text)
-    heads = (f"beta = {beta:g}, {SCHEMES[scheme].drag_at} velocity" for beta, scheme in columns)
-    caption = "Final depth of the sheet [um] (error [nm]), by the velocity at which drag is taken"
-    return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
-
-
-def sensitivity(case: r.Sensitivity) -> Table:
-    """Return how the depth of a case changes over the range of each input."""
-    rows = [
-        (e.input.replace("_", " "), f"{case.elasticities[e.input]:+.3f}", shown_range(e),
-         " to ".join(f"{depth * 1e6:.3f}" for depth in e.depths),
-         " to ".join(dict.fromkeys(f"{ratio:.4f}" for ratio in e.ratios)), e.why)
-        for e in case.stated
-    ]  # fmt: skip
-    heads = ("input", "d ln X / d ln input", "range", "X [um]", "X/R", "source of the range")
-    return Table(f"Derivatives and stated ranges, beta = {case.beta:g}", heads, rows)
-
-
-def scatter(record: r.Record) -> Table:
-    """Return the scatter of velocity and X/R over the particles of the stream, by three laws."""
-    shares = [f"V and X/R that {number(100 * share)} % do not exceed" for share in SHARES]
-    rows = []
-    for law in record.scatter:
-        pairs = zip(law.velocities, law.ratios, strict=True)
-        quantiles = (f"{v:.0f} m/s, {ratio:.3f}" for v, ratio in pairs)
-        deviations = (f"{x:.1f} m/s" for x in (law.standard_deviation, law.mean_deviation))
-        rows.append((law.law, *deviations, *quantiles))
-    caption = "Velocity V and X/R of the stream's particles; deviations from sizes to first order"
-    return Table(caption, ("law", "standard deviation", "mean deviation", *shares), rows)
-
-
-# Typesetting
-
-
-_LOWERED = str.maketrans("0123456789aehklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕₖₗₘₙₒₚᵣₛₜᵤᵥₓ")
-_SIGNS = {
-    "<=": "≤", ">=": "≥", " * ": " · ", " - ": " − ", "-": "−", "inf": "∞", "um": "µm",
-}  # fmt: skip
-_SIGN = re.compile(r"<=|>=| [*-] |(?<![\w)\]])-(?=\d|\(|inf\b)|\binf\b|\bum\b|\^(?:-?\d+|n\b)")
-_POWER = re.compile(r"\^(\(([^()]*)\))")
-
-
-def _typographic(text: str) -> str:
-    """Escape a text for HTML, with curly quotes, and no line breaks within "Eq. 1" or "5 um"."""
-    text = escape(re.sub('"([^"]*)"', r"“\1”", text).replace("'", "’"), quote=False)
-    return _TOGETHER.sub("\N{NO-BREAK SPACE}", text)
-
-
-_TOGETHER = re.compile(  # beginning with the space makes the search fast
-    r" (?=[\dA])(?:(?<=\bEq\. )|(?<=\bEqs\. )|(?<=\bTable )|(?<=\bFigure ))"
-    r"| (?<=\d )(?=%|[µmnkMG]?(?:m|s|g|Pa|si)\b)"
-)
-
-
-class Form(NamedTuple):
-    """How to escape a text, and to write a subscript, a power in brackets, an id, and its title."""
-
-    escaped: Callable[[str], str]
-    lowered: Callable[[str, str], str]
-    power: str
-    code: str
-    known: str
-
-
-TERMINAL = Form(
-    str, lambda base, below: base + below.translate(_LOWERED), r"^\1", "{}", "{title} ({code})"
-)
-MARKDOWN = TERMINAL._replace(  # a vertical bar would end a table cell
-    escaped=lambda text: text.replace("|", "\\|").replace("<", "&lt;"), code="`{}`"
-)
-HTML = Form(
-    _typographic, "{}<sub>{}</sub>".format, r"<sup>\2</sup>", "<code>{}</code>",
-    '<a href="#{anchor}">{title}</a>',
-)  # fmt: skip
-
-
-class Prose:
-    """Typesets the record's plain sentences in a form: HTML, Markdown, or text for a terminal.
-
-    `symbols` are written like "ρ_t"; a sentence may spell the Greek letter ("rho_t"). Ids stand
-    between backticks, and `names` says what they refer to.
-
-    >>> names = {"a1-density": Named("particle density", "claim-a1-density")}
-    >>> Prose(TERMINAL, ["ρ_t", "V"], names)("`a1-density`: rho_t V^2 is 2e+09 Pa, -8 %")
-    'particle density (a1-density): ρₜ V² is 2×10⁹ Pa, −8 %'
-    >>> Prose(HTML, ["ρ_t", "V"], names)("rho_t < `a1-density`")
-    'ρ<sub>t</sub> &lt; <a href="#claim-a1-density">particle density</a>'
-    """
-
-    def __init__(self, form: Form, symbols: Iterable[str], names: Mapping[str, Named]) -> None:
-        self.form, self.names = form, names
-        self._symbols: dict[str, str] = {}
-        for symbol in symbols:
-            base, _, below = symbol.partition("_")
-            spellings = [base] if below else []
-            if not base.isascii() and len(base) == 1:  # a Greek letter
-                word = unicodedata.name(base).rpartition(" ")[2].capitalize()
-                spellings = [base, word] if base.isupper() else [base, word, word.lower()]
-            for spelling in spellings:
-                typeset = form.lowered(base, below) if below else base
-                self._symbols.setdefault(f"{spelling}_{below}".rstrip("_"), typeset)
-        longest_first = sorted(self._symbols, key=lambda name: (-len(name), name))
-        self._pattern = re.compile(
-            rf"(?<![^\W\d])({'|'.join(map(re.escape, longest_first)) or '(?!)'})(?![A-Za-z_\d])"
+    for record in records:
+        exact = quantity(between(record.interval, 7, inward=True), entry.unit)
+        sentence = (
+            f"With the drag at the {record.scheme.drag_at} velocity, Table A-1 admits {exact} if "
+            "its header is exact as printed, but with the sphere’s mass"
         )
-
-    def __call__(self, sentence: str) -> str:
-        parts = sentence.split("`")
-        parts[::2] = map(self._text, parts[::2])
-        parts[1::2] = map(self._reference, parts[1::2])
-        return "".join(parts)
-
-    def _text(self, text: str) -> str:
-        text = _SIGN.sub(lambda sign: _SIGNS.get(sign[0]) or superscript(sign[0][1:]), text)
-        text = self.form.escaped(powers_of_ten(text))
-        text = self._pattern.sub(lambda symbol: self._symbols[symbol[1]], text)
-        return _POWER.sub(self.form.power, text)
-
-    def _reference(self, name: str) -> str:
-        code = self.form.code.format(escape(name))
-        if name not in self.names:
-            return code
-        title, anchor, _ = self.names[name]
-        return self.form.known.format(title=self(title), code=code, anchor=anchor)
+        if record.possible_with_rounded_inputs is not None:
+            possible = quantity(between(record.possible_with_rounded_inputs, 7), entry.unit)
+            sentence += (
+                "; if the numbers of the header are rounded, except for those that the author "
+                f"chose, it admits none outside {possible}"
+            )
+        sentences.append(f"{sentence}.")
+    return " ".join(sentences)
 
 
-_COMMANDS = {"leq": "≤ ", "geq": "≥ ", "quad": " ", "text": ""}
+def repetition(record: r.ClaimRecord, names: Mapping[str, Named]) -> str:
+    """Say with which number of the report one that repeats it, or was chosen, agrees."""
+    if record.restated is None:
+        return record.explanation
+    value = names[record.restated].value
+    differs = value != with_unit(record.claim)
+    return f"agrees with `{record.restated}`" + (f", {value}" if differs else "")
 
 
-def quoted(text: str) -> str:
-    r"""Convert a quotation from the report's LaTeX to plain text.
-
-    >>> quoted(r"then $\beta = ⟦3^2⟧$, where $k_t\rho_t \leq \ln(2)$")
-    'then β = ⟦3²⟧, where k_t ρ_t ≤ ln(2)'
-    """
-    text = re.sub(r"(?<=\w)(?=\\)", " ", shown(text))
-
-    def sign(command: re.Match[str]) -> str:  # HTML names letters as LaTeX does
-        name = command[1]
-        return _COMMANDS.get(name, html5.get(f"{name};", name))
-
-    return " ".join(re.sub(r"[$&]", "", re.sub(r"\\([A-Za-z]+)", sign, text)).split())
+def power(rates: Power) -> str:
+    """Say what the audit notices of planted misprints."""
+    return (
+        f"{rates.planted} misprints were planted, one at a time, in copies of the report, and each "
+        f"copy was judged by this audit. It notices {rates.detected} of them. {rates.invisible} "
+        "leave all numbers that it relates in agreement, so they cannot be noticed. Of the "
+        f"{rates.visible} visible ones, the true text is among the repairs that it names in "
+        f"{rates.repaired} cases, and is the first of them in {rates.repaired_first}; in "
+        f"{rates.accused_wrongly} cases another entry is named first. Measured by "
+        f"`coldspray power --sample {rates.planted} --seed {rates.seed}`."
+    )

@@ -1,5 +1,6 @@
 """Every arithmetic gives what the formulas need: derivatives, proven ranges, exact quotients."""
 
+import re
 from collections.abc import Callable
 from fractions import Fraction as F
 from typing import Any
@@ -9,9 +10,16 @@ import mpmath
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from kept import calls
 
-from reference.arithmetic import Arithmetic, Duals, Floats, RationalFunctions, Rationals, Reals
+from reference.arithmetic import (
+    Arithmetic,
+    Duals,
+    Floats,
+    InexactError,
+    RationalFunctions,
+    Rationals,
+    Reals,
+)
 from reference.intervals import Intervals
 
 OPERATIONS: dict[str, Callable[[Any, Any, Any], Any]] = {
@@ -134,16 +142,154 @@ def test_a_wrong_root_is_rejected(monkeypatch: pytest.MonkeyPatch) -> None:
             ar.cap_root(ar.number(F(1, 3)))
 
 
+# What has no number
+
+
+SPANS = Intervals(20)
+
+
+def span(low: int, high: int) -> Any:
+    return SPANS.interval(F(low), F(high))
+
+
+def test_a_span_is_not_divided_by_zero() -> None:
+    message = r"^division by \[-1.00000000000000, 1.00000000000000\], which may be zero$"
+    with pytest.raises(ZeroDivisionError, match=message):
+        1 / span(-1, 1)
+    with pytest.raises(ZeroDivisionError, match=r"^division by \[0, 0\], which may be zero$"):
+        span(-2, -1) / SPANS.number(0)
+
+
+def test_the_power_of_a_span_is_natural() -> None:
+    with pytest.raises(ValueError, match=r"^the power -1 of an interval is negative$"):
+        span(-2, -1) ** -1
+
+
+NEGATIVE = span(-2, -1)
+
+
+@pytest.mark.parametrize(
+    ("compute", "ends"),
+    [
+        pytest.param(lambda: SPANS.ends(SPANS.log(NEGATIVE)), "[nan, nan]", id="ends"),
+        pytest.param(lambda: SPANS.ends(SPANS.log(span(0, 1))), "[nan, 0]", id="at zero"),
+        pytest.param(
+            lambda: SPANS.ends(SPANS.power(span(-1, 1), F(1, 2))),
+            "[nan, 1.00000000000000]",
+            id="root",
+        ),
+        pytest.param(lambda: SPANS.least(SPANS.log(NEGATIVE), NEGATIVE), "[nan, nan]", id="least"),
+        pytest.param(
+            lambda: SPANS.greatest(NEGATIVE, SPANS.log(NEGATIVE)), "[nan, nan]", id="greatest"
+        ),
+        pytest.param(lambda: SPANS.hull([NEGATIVE, SPANS.log(NEGATIVE)]), "[nan, nan]", id="hull"),
+        pytest.param(lambda: SPANS.below(SPANS.log(NEGATIVE), NEGATIVE), "[nan, nan]", id="below"),
+    ],
+)
+def test_an_undefined_span_is_refused_when_it_is_used(
+    compute: Callable[[], Any], ends: str
+) -> None:
+    message = f"an enclosure is unbounded or undefined: {ends}"
+    with pytest.raises(ArithmeticError, match=f"^{re.escape(message)}$"):
+        compute()
+
+
+def test_a_cap_root_of_negative_numbers_is_refused() -> None:
+    with pytest.raises(ArithmeticError, match=r"^a root of .* = c could not be verified$"):
+        SPANS.cap_root(NEGATIVE)
+
+
+# Quotients of polynomials
+
+
 RATIOS = RationalFunctions(["x", "y"])
-test_what_single_calls_give = calls(
-    "reference/kept.txt",
-    "Arithmetic: what it gives, or why there is no such number",
-    {
-        "F": F, "rationals": Rationals(), "floats": Floats(), "reals": Reals(20),
-        "spans": Intervals(20), "span": lambda low, high: Intervals(20).interval(F(low), F(high)),
-        "ratios": RATIOS, **RATIOS.symbols,
-    },
-)  # fmt: skip
+X, Y = RATIOS.symbols["x"], RATIOS.symbols["y"]
+
+
+@pytest.mark.parametrize(
+    ("left", "right", "expected"),
+    [
+        pytest.param((X**2 - Y**2) / (X - Y), X + Y, True, id="reduced"),
+        pytest.param((X**2 - Y**2) / (X - Y), X + 2 * Y, False, id="another sum"),
+        pytest.param(1 / (1 / X + 1 / Y), X * Y / (X + Y), True, id="two stories"),
+        pytest.param(X**-2, 1 / (X * X), True, id="negative power"),
+        pytest.param(X - 2, -(2 - X), True, id="turned difference"),
+        pytest.param(RATIOS.log(X * Y / Y), RATIOS.log(X), True, id="logarithms of the same"),
+        pytest.param(RATIOS.log(X), RATIOS.log(Y), False, id="logarithms of two symbols"),
+        pytest.param(
+            RATIOS.power(X, F(1, 2)), RATIOS.power(X, F(1, 3)), False, id="roots of two degrees"
+        ),
+        pytest.param(RATIOS.power(X, F(1, 2)), RATIOS.log(X), False, id="root and logarithm"),
+        pytest.param(RATIOS.power(X, F(-2)), 1 / X**2, True, id="power"),
+        pytest.param(RATIOS.power(RATIOS.number(1), F(1, 2)), 1, True, id="root of one"),
+        pytest.param(RATIOS.pi * X / X, RATIOS.pi, True, id="pi"),
+    ],
+)
+def test_two_forms_are_equal_for_all_symbols_or_not(left: Any, right: Any, expected: bool) -> None:
+    assert (left == right) is expected
+
+
+@pytest.mark.parametrize(
+    ("ratio", "expected"),
+    [((2 * X + 2 * Y) / (3 * Y + 3 * X), F(2, 3)), (X / Y, None), ((X - X) / Y, F(0))],
+)
+def test_a_ratio_may_be_one_number(ratio: Any, expected: F | None) -> None:
+    assert RATIOS.constant(ratio) == expected
+
+
+def test_a_polynomial_that_is_zero_divides_nothing() -> None:
+    with pytest.raises(ZeroDivisionError, match=r"^division by a polynomial that is zero$"):
+        X / (Y - Y)
+
+
+# Exact fractions, and single numbers
+
+
+RATIONALS = Rationals()
+
+
+def test_fractions_stay_exact() -> None:
+    assert RATIONALS.number(F(1, 3)) * 3 == 1
+    assert RATIONALS.power(F(2, 3), F(-2)) == F(9, 4)
+    assert RATIONALS.contact_share(F(1, 3)) == F(5, 9)
+    assert (RATIONALS.least(F(1), F(2)), RATIONALS.greatest(F(1), F(2))) == (1, 2)
+    assert RATIONALS.hull([F(1)]) == 1
+
+
+@pytest.mark.parametrize(
+    "compute",
+    [
+        pytest.param(lambda: RATIONALS.pi, id="pi"),
+        pytest.param(lambda: RATIONALS.log(F(2)), id="logarithm"),
+        pytest.param(lambda: RATIONALS.power(F(2), F(1, 2)), id="root"),
+        pytest.param(lambda: RATIONALS.cap_root(F(1, 2)), id="cap root"),
+    ],
+)
+def test_what_is_not_rational_is_refused(compute: Callable[[], Any]) -> None:
+    with pytest.raises(InexactError, match=r"^the value is not rational, or not known to be$"):
+        compute()
+
+
+@pytest.mark.parametrize("ar", [RATIONALS, Floats(), Reals(20)], ids=lambda ar: type(ar).__name__)
+def test_below_is_strict(ar: Any) -> None:
+    pairs = (1, 2), (2, 1), (1, 1)
+    actual = [ar.below(ar.number(F(low)), ar.number(F(high))) for low, high in pairs]
+    assert actual == [True, False, False]
+
+
+def test_two_numbers_have_no_hull_but_in_intervals() -> None:
+    with pytest.raises(ValueError, match="too many values"):
+        Floats().hull([1.0, 2.0])
+
+
+def test_negative_reals_have_powers_but_no_logarithms_or_roots() -> None:
+    reals = Reals(20)
+    assert reals.power(reals.number(-2), F(3)) == -8
+    for compute in (reals.log, reals.cap_root, lambda x: reals.power(x, F(1, 2))):
+        with pytest.raises(ArithmeticError, match=r"^a negative number has no real logarithm"):
+            compute(reals.number(-2))
+    with pytest.raises(ArithmeticError, match=r"^y\^2 - y\^3/3 is at most 4/3, at y = 2$"):
+        reals.cap_root(reals.number(22))
 
 
 def test_global_precision_is_left_alone() -> None:

@@ -8,11 +8,9 @@ from typing import Any
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from kept import calls
 
-from reference import enclosure
 from reference.arithmetic import Rationals
-from reference.enclosure import Box, enclose, satisfying, solve
+from reference.enclosure import Box, bounds, enclose, satisfying, solve
 from reference.printed import Interval
 
 EXACT = Rationals()
@@ -153,10 +151,84 @@ def found(*limits: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F])
     return outcome
 
 
-test_what_single_searches_find = calls(
-    "reference/kept.txt",
-    "Searches over boxes, and intervals",
-    vars(enclosure)
-    | FUNCTIONS
-    | {"F": F, "found": found, "root": lambda ar, x: ar.power(x, F(1, 3)) ** 3},
+# Single searches, of a budget that ends them early
+
+
+BOTH_SIDES = (F(-3), F(3))
+LOG_ROOT_AND_RECIPROCAL: list[Callable[..., Any]] = [
+    lambda ar, x: ar.log(x),
+    lambda ar, x: ar.power(x, F(1, 2)),
+    lambda ar, x: 1 / x,
+]
+
+
+def test_a_search_that_ends_at_once_leaves_everything_open() -> None:
+    solutions = solve(FUNCTIONS["parabola"], "x", BOTH_SIDES, Interval(F(2), F(6)), budget=1)
+    assert solutions.inner == ()
+    assert solutions.outer == (BOTH_SIDES,)
+    assert solutions.reaches_an_end
+
+
+@pytest.mark.parametrize(
+    ("name", "target", "search", "budget", "expected"),
+    [
+        pytest.param(
+            "cubic", Interval(F(-5, 2), F(-49, 20)), BOTH_SIDES, 2, None, id="a narrow target"
+        ),
+        pytest.param("cubic", Interval(F(2), F(6)), BOTH_SIDES, 0, None, id="no budget"),
+        pytest.param("cubic", Interval(F(50), F(60)), BOTH_SIDES, 1, False, id="far off"),
+        pytest.param(
+            "parabola", Interval(F(5, 2), F(3)), (F(1), F(2)), 2, False, id="above a monotone range"
+        ),
+    ],
 )
+def test_what_a_small_budget_decides(
+    name: str, target: Interval, search: tuple[F, F], budget: int, expected: bool | None
+) -> None:
+    assert satisfying([(FUNCTIONS[name], target)], {"x": search}, budget) == (expected, None)
+
+
+def cube_of_the_cube_root(ar: Any, x: Any) -> Any:
+    """x itself, but no interval arithmetic knows it: 1/3 is only enclosed."""
+    return ar.power(x, F(1, 3)) ** 3
+
+
+def test_a_value_on_an_end_that_is_irrational_on_the_way_stays_undecided() -> None:
+    third = {"x": (F(1, 3), F(1, 3))}
+    assert satisfying([(cube_of_the_cube_root, Interval(F(1, 3), None))], third) == (None, None)
+    solutions = solve(cube_of_the_cube_root, "x", (F(1, 3), F(1)), Interval(F(0), F(1, 3)))
+    assert solutions.inner == ()
+    assert solutions.outer[0][0] == F(1, 3)
+
+
+@pytest.mark.parametrize("function", LOG_ROOT_AND_RECIPROCAL)
+def test_where_a_function_is_undefined_the_rest_is_searched(function: Callable[..., Any]) -> None:
+    outcome, _ = satisfying([(function, Interval(None, F(9)))], {"x": (F(-1), F(1))})
+    assert outcome is True
+
+
+def test_a_constant_depends_on_nothing() -> None:
+    result = enclose(lambda ar, x: F(1, 3), {"x": (F(0), F(1))})
+    assert (result.ends, result.idle) == ((F(1, 3), F(1, 3)), {"x"})
+
+
+def test_a_saddle_that_is_monotone_in_a_corner() -> None:
+    """x y - x - y/2 has the slopes y - 1 and x - 1/2, which are positive there."""
+    result = enclose(FUNCTIONS["saddle"], {"x": (F(2), F(3)), "y": (F(2), F(4))})
+    assert result.ends == (2 * 2 - 2 - 1, 3 * 4 - 3 - 2)
+    assert (result.signs, result.idle) == ({"x": 1, "y": 1}, set())
+
+
+def test_bounds_that_nothing_narrows_are_those_of_the_box() -> None:
+    constraint = (lambda ar, x, y: x * y, Interval(F(-1, 2), F(1, 2)))
+    assert bounds([constraint], "x", {"x": (F(-2), F(2)), "y": (F(-1), F(1))}) == (-2, 2)
+
+
+def test_several_constraints_are_met_at_once_or_proven_to_exclude_each_other() -> None:
+    square = {"x": (F(0), F(3)), "y": (F(0), F(3))}
+    total, product_ = (lambda ar, x, y: x + y), (lambda ar, x, y: x * y)
+    assert found((total, 4, 5), (product_, 4, 9), **square) is True
+    assert found((total, 0, 1), (FUNCTIONS["saddle"], 3, 9), **square) is False
+    weighted, difference = (lambda ar, x, y: x + 2 * y), (lambda ar, x, y: x - y)
+    narrow = (weighted, F(29, 10), F(291, 100)), (difference, F(-3, 2), F(-149, 100))
+    assert found(*narrow, x=(F(-3), F(3)), y=(F(0), F(9)), budget=1) is True

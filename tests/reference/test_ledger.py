@@ -1,26 +1,18 @@
-"""The ledger and the findings are complete, and agree with the report and with each other."""
+"""The ledger is complete, and agrees with the report and with itself."""
 
-import json
 import re
-import tomllib
 from collections import Counter
 from collections.abc import Iterable
 from fractions import Fraction as F
 from graphlib import TopologicalSorter
-from importlib import resources
 from typing import Any, get_args
 
 import msgspec
 import pytest
-from kept import calls, kept
-from msgspec.structs import replace
 
-from reference.findings import Assertion, filled
-from reference.findings import load as load_findings
-from reference.formulas import Condition
-from reference.ledger import Claim, Convention, Kind, load, shown
-from reference.printed import Rounding, parse, place_of
-from reference.units import same_dimension, to_si
+from reference.ledger import Claim, Convention, Kind, Lines, entry, load, shown
+from reference.printed import Rounding
+from reference.units import same_dimension
 
 LEDGER = load()
 CLAIMS = list(LEDGER.claims.values())
@@ -107,26 +99,132 @@ def test_the_table_cell_by_cell() -> None:
     assert len(LEDGER.blank) == 24 + 6 + 1
 
 
-@kept("reference/kept.txt", "Inputs: the values that they may have; with ties to even; with the"
-      " header exact; with choices rounded; these with the header exact, or cut off")  # fmt: skip
-def test_the_values_that_a_number_may_have_as_an_input(question: str, answer: str) -> None:
-    conventions = (
-        Convention(),
-        Convention(rounding=Rounding.EVEN),
-        Convention(header_exact=True),
-        Convention(choices_exact=False),
-        Convention(choices_exact=False, header_exact=True),
-        Convention(choices_exact=False, rounding=Rounding.CUT),
-    )
-    claim = LEDGER.claims[question]
-    assert "; ".join(str(claim.as_input(convention)) for convention in conventions) == answer
-
-
-test_what_single_calls_give = calls(
-    "reference/kept.txt",
-    "The ledger, and copies with a misprint, which leave it as it is",
-    {"F": F, "LEDGER": LEDGER, "shown": shown, "place_of": place_of},
+CONVENTIONS = (
+    Convention(),
+    Convention(rounding=Rounding.EVEN),
+    Convention(header_exact=True),
+    Convention(choices_exact=False),
+    Convention(choices_exact=False, header_exact=True),
+    Convention(choices_exact=False, rounding=Rounding.CUT),
 )
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        pytest.param(
+            "flow-stress",  # the author's choice, printed as 700 MPa
+            ("7E+8", "7E+8", "7E+8", *["[6.995E+8, 7.005E+8)"] * 2, "[7E+8, 7.01E+8)"),
+            id="a choice",
+        ),
+        pytest.param(
+            "a-step",  # 0.2 ns
+            ("2E-10", "2E-10", "2E-10", *["[1.5E-10, 2.5E-10)"] * 2, "[2E-10, 3E-10)"),
+            id="a choice of one digit",
+        ),
+        pytest.param(
+            "time-step",
+            ("2E-10", "2E-10", "2E-10", *["[1.5E-10, 2.5E-10)"] * 2, "[2E-10, 3E-10)"),
+            id="a choice, repeated",
+        ),
+        pytest.param("strain-rate-length", ("[0.000015, 0.000025)",) * 6, id="about 20 um"),
+        pytest.param("volume-ratio", ("[0.055, 0.065)",) * 6, id="about 0.06"),
+        pytest.param(
+            "a1-radius",  # 1.10E-05, in the header of Table A-1
+            (
+                "[0.00001095, 0.00001105)", "[0.00001095, 0.00001105]", "0.000011",
+                "[0.00001095, 0.00001105)", "0.000011", "[0.000011, 0.0000111)",
+            ),
+            id="in the header",
+        ),
+        pytest.param(
+            "a1-initial-velocity",  # 500
+            ("500", "500", "500", "[499.5, 500.5)", "500", "[500, 501)"),
+            id="a choice in the header",
+        ),
+        pytest.param("observed-third", ("1/3",) * 6, id="a word"),
+        pytest.param("eq5-power-target", ("2",) * 6, id="a constant"),
+        pytest.param("sphere-length-ratio", ("2/3",) * 6, id="a fraction"),
+        pytest.param("copper-yield-bound", ("1E+8",) * 6, id="a bound"),
+    ],
+)  # fmt: skip
+def test_the_values_that_a_number_may_have_as_an_input(
+    name: str, expected: tuple[str, ...]
+) -> None:
+    actual = [str(LEDGER.claims[name].as_input(convention)) for convention in CONVENTIONS]
+    assert actual == list(expected)
+
+
+@pytest.mark.parametrize(
+    ("name", "least", "greatest", "reason"),
+    [
+        (
+            "a1-initial-velocity", F(50), F(3000),
+            "from a tenth of the report's velocity to six times it",
+        ),
+        (
+            "inferred:target-density", F(1000), F(23000),
+            "from water to osmium, the densest metal",
+        ),
+        (
+            "mean-diameter", F("2.2E-6"), F("2.2E-4"),
+            "from a tenth to ten times the printed value",
+        ),
+        ("initial-depth", F(-1), F(1), "from -1 to 1, as zero is printed"),
+    ],
+)  # fmt: skip
+def test_the_range_in_which_another_value_is_searched(
+    name: str, least: F, greatest: F, reason: str
+) -> None:
+    assert LEDGER.search(name) == (least, greatest, reason)
+
+
+def test_a_remark_prints_no_number() -> None:
+    with pytest.raises(ValueError, match=r"^claim 'coarse-step-remark' prints no number$"):
+        LEDGER.value("coarse-step-remark")
+
+
+def test_exponents_are_shown_as_superscripts() -> None:
+    assert shown(r"10^{-3}") == "10⁻³"
+
+
+# Copies with a misprint, which leave the ledger as it is
+
+
+def test_a_misprint_changes_the_number_and_what_is_compared_with_it() -> None:
+    copy = LEDGER.misprint("observed-depth-ratio", "0.289")
+    assert copy.claims["observed-depth-ratio"].value == F("0.289")
+    assert copy.claims["frank-zook-below-observed"].bound == F("0.289")
+    assert LEDGER.claims["frank-zook-below-observed"].bound == F("0.298")
+    assert LEDGER.misprint("cth-pressure", "6").claims["cth-pressure"].bound == 6
+    assert LEDGER.misprinted == {}
+
+
+def test_a_misprint_of_a_constant_changes_its_equation_and_no_other() -> None:
+    copy = LEDGER.misprint("eq3-factor", "5/3")
+    assert copy.printed_text("eq3") == r"PV = 5/3 \pi R^3"
+    assert copy.sides["eq3"] == LEDGER.read(r"PV = 5/3 \pi R^3")
+    assert [name for name in LEDGER.sides if copy.sides[name] != LEDGER.sides[name]] == ["eq3"]
+    assert copy.misprint("eq3", r"PV = 4/3 \pi R^3").sides == LEDGER.sides
+
+
+def test_an_equation_that_cannot_be_read_keeps_its_sides() -> None:
+    assert LEDGER.misprint("eq3", "PV = (").sides == LEDGER.sides
+
+
+def test_a_misprint_must_be_a_number_of_a_known_entry() -> None:
+    with pytest.raises(ValueError, match=r"^cannot read 'deep' as a printed number$"):
+        LEDGER.misprint("observed-depth-ratio", "deep")
+    with pytest.raises(KeyError, match="no-such"):
+        LEDGER.misprint("no-such", "1")
+
+
+def test_constants_can_be_put_into_an_equation() -> None:
+    assert LEDGER.constants_of("eq11") == ["eq11-numerator", "eq11-denominator", "eq11-power"]
+    numerator = LEDGER.printed_text("eq11", {"eq11-numerator": F(5, 2)})
+    assert numerator == r"\alpha = (\frac{5}{2}E_t/3Y_t)^{1/3}"
+    power = LEDGER.printed_text("eq11", {"eq11-power": F(5, 2)})
+    assert power == r"\alpha = (2E_t/3Y_t)^{\frac{5}{2}}"
 
 
 # How the entries of the files agree with each other
@@ -153,113 +251,54 @@ def test_claims_do_not_rest_on_each_other_in_a_circle() -> None:
     assert [*TopologicalSorter(rests_on).static_order()]
 
 
-def test_equations_inferred_inputs_sources_and_slips_name_existing_entries() -> None:
-    assert all(own.checks for own in LEDGER.equations.values() if own.kind == "derived")
-    for entry in LEDGER.inferred.values():
-        own = (entry.mass, entry.radius, entry.density, *entry.header)
-        assert LEDGER.claims.keys() >= {*own, *entry.evidence}
-        assert LEDGER.quantities[entry.quantity].unit == entry.unit
+def test_inferred_inputs_and_sources_name_existing_entries() -> None:
+    for inferred in LEDGER.inferred.values():
+        own = (inferred.mass, inferred.radius, inferred.density, *inferred.header)
+        assert LEDGER.claims.keys() >= {*own, *inferred.evidence}
+        assert LEDGER.quantities[inferred.quantity].unit == inferred.unit
     for source in LEDGER.sources.values():
         assert 1 <= len(source.numbers) <= 2
         assert source.address.startswith("http")
         assert source.applies
         assert all(same_dimension(LEDGER.unit(name), source.unit) for name in source.claims)
-    for slip in LEDGER.slip:
-        assert slip.equation in LEDGER.equations
-        assert slip.reason
-        assert slip.text is None or LEDGER.read(slip.text)
-        assert LEDGER.claims.keys() >= set(slip.inputs.values())
 
 
-def test_a_misspelt_key_or_convention_is_refused() -> None:
-    piece = {"says": "yes", "means": "-"}
-    for kind, table in (
-        (Condition, {"says": "any", "equals": "R", "reasons": "any"}),
-        (Assertion, piece | {"under": {"roundnig": "cut off"}}),
-        (Assertion, piece | {"under": {"rounding": "cut"}}),
-    ):
-        with pytest.raises(msgspec.ValidationError, match=r"reasons|under"):
-            msgspec.convert(table, kind)
-
-
-# The findings: their words, their numbers, and the entries they name
-
-RAW = tomllib.loads((resources.files("reference") / "report" / "findings.toml").read_text("utf-8"))
-TEXTS = {entry["id"]: entry for entry in RAW["finding"]}
-
-REFERENCE = re.compile(
-    r"""[Ee]q(?:uation|s?\.)\ \d+(?:\ (?:and|to)\ \d+)? | Table\ A-1 | \b304\b | ASTM\ A240
-    | (?:reference|[Ss]ection|[Ff]igure|[Rr]ow)\ \d+ | beta\ =\ [35]""",
-    re.VERBOSE,
+@pytest.mark.parametrize(
+    ("lines", "message"),
+    [
+        ({"quote": "⟦1⟧", "what": {"title": "one"}}, "missing required field `kind`"),
+        (
+            {"quote": "⟦1⟧", "what": {"title": "one", "kind": "result", "units": "m"}},
+            "contains unknown field `units`",
+        ),
+        (
+            {"quote": "⟦1⟧", "what": {"title": "one", "kind": "guess"}},
+            "Invalid enum value 'guess'",
+        ),
+    ],
 )
-"""Digits that are no evidence: a place in the report, an alloy, a standard, the name of a case."""
-FORMULA = re.compile(
-    r"""\^\(?-?\d(?:/\d)?\)? | (?<=[(/])\d(?=[\ /)a-zA-Z]) | \d(?=/\d) | (?<=/)\d
-    | \d(?=\ [-+]\ | \ (?:k_t|R_t|rho_|ln)) | (?<=[a-z])_\d""",
-    re.VERBOSE,
-)
-"""The coefficients and exponents of a formula in symbols."""
+def test_a_wrong_key_is_refused_with_the_claims_id(lines: dict[str, Any], message: str) -> None:
+    with pytest.raises(msgspec.ValidationError, match=f"^ledger.toml: my-claim: .*{message}"):
+        entry("my-claim", Lines(**lines), Claim)
 
 
-@pytest.mark.parametrize("name", TEXTS)
-def test_every_digit_is_evidence_printed_a_step_or_a_reference(name: str) -> None:
-    for key in ("title", "statement", "by_hand", "settle"):
-        text = " ".join(TEXTS[name].get(key, "").split())
-        for known in (r"`.*?`", r"\{.*?\}", r'".*?"', REFERENCE, FORMULA):
-            text = re.sub(known, "", text)
-        assert re.findall(r".{0,20}\d.{0,20}", text) == [], key
+def test_a_wrong_line_is_refused() -> None:
+    with pytest.raises(msgspec.ValidationError, match="unknown field `reason`"):
+        msgspec.convert({"quote": "⟦1⟧", "what": {}, "reason": "any"}, Lines)
 
 
-def plain(text: str) -> str:
-    return re.sub(r"[\s$~]", "", text.replace("μ", "u").replace("- um", "-um")).lower()
+BASIS = {"computed_by", "rests_on", "readings", "assumes", "same_as", "given", "shown_by"}
 
 
-REPORT = plain(LEDGER.text)
-
-
-@pytest.mark.parametrize("name", TEXTS)
-def test_quotations_arithmetic_names_and_assertions_of_a_finding(name: str) -> None:
-    finding = load_findings()[name]
-    whole = " ".join((finding.title, finding.statement, finding.by_hand, finding.settle))
-    assert [said for said in re.findall(r'"(.*?)"', whole) if plain(said) not in REPORT] == []
-    assert [text for text, holds in finding.steps.items() if not holds] == []
-    assert not re.search("[{}`]", whole)
-    assert finding.settle or finding.kind == "headline"
-    assert LEDGER.claims.keys() | LEDGER.equations.keys() >= set(finding.claims)
-    for assertion in finding.evidence.values():
-        assert to_si(assertion.unit)
-        assert assertion.holds(parse("7.67").value) in (True, False)
-
-
-def test_finding_ids_are_unique() -> None:
-    assert len(load_findings()) == len(RAW["finding"]) == len(TEXTS)
-
-
-def test_numbers_are_put_into_texts_and_arithmetic_is_calculated_again() -> None:
-    evidence = {"depth": Assertion(says="7.67", unit="um", means="depth")}
-    statement = "It is {depth} um, printed {depth-beta-5} or {depth-beta-5:mm}, {copper-density}."
-    settle = "`2/3 * 3 = 2.1`, `ln(1 + 1) = 0.69`"
-    known = replace(
-        load_findings()["headline"], statement=statement, settle=settle, evidence=evidence
-    )
-    finding = filled(known)
-    assert finding.statement == "It is 7.67 um, printed 7.67 or 0.00767, 8.89."
-    assert finding.settle == "2/3 * 3 = 2.1, ln(1 + 1) = 0.69"
-    assert list(finding.steps.values()) == [False, True]
-    with pytest.raises(KeyError, match="width"):
-        filled(replace(known, statement="{width} um"))
-
-
-@kept("reference/kept.txt", "Assertions: a value that they allow; one that they do not")
-def test_an_assertion_can_fail(question: str, answer: str) -> None:
-    assertion = Assertion(says=question, means="meaning")
-    inside, outside = map(json.loads, answer.split("; "))
-    assert assertion.holds(inside)
-    assert not assertion.holds(outside)
+@pytest.mark.parametrize("name", LEDGER.claim)
+def test_what_decides_a_number_stands_in_its_basis(name: str) -> None:
+    lines = LEDGER.claim[name]
+    assert lines.what.keys() & BASIS == set()
+    assert lines.basis.keys() <= BASIS
 
 
 def test_a_power_misprinted_as_zero_is_audited() -> None:
     from replication.audit.audit import Audit
 
     audit = Audit(load().misprint("eq16-power", "0"), every_convention=False)
-    assert all(audit.assessment(claim) for claim in audit.ledger.claims.values())
+    assert all(audit.judge.assess(claim) for claim in audit.ledger.claims.values())

@@ -15,6 +15,7 @@ import termios
 import time
 from collections.abc import Callable
 from pathlib import Path
+from textwrap import dedent
 from typing import Any
 
 import numpy as np
@@ -22,11 +23,11 @@ import pyarrow.parquet
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kept import kept
 from running import coldspray
 from scipy import stats
 
 from replication import sweep
+from replication.cases import BETA_5
 from replication.models.depth import final_depth, normalized_depth
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
@@ -58,13 +59,65 @@ def names(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
-@kept("replication/kept.txt", "What a plan means")
-def test_plans_give_the_expected_cases(question: str, answer: str, tmp_path: Path) -> None:
-    cases = all_of(plan_of(tmp_path, question))
-    for name, expected in eval(answer).items():
-        rounding = 2e-9 if "ksi" in question else 1e-15
-        assert cases[name].tolist() == pytest.approx(expected, rel=rounding, abs=0)
-    assert ("beta" in cases) == ("resistance =" not in question)
+PSI = 4.4482216152605 / 0.0254**2
+"""1 lbf/in^2 in Pa."""
+
+
+@pytest.mark.parametrize(
+    ("plan", "cases"),
+    [
+        pytest.param(
+            """
+            [inputs]
+            velocity = ["400 m/s", 500.0]
+            radius = {from = "1 um", to = 3e-6, points = 3}
+            """,
+            {
+                "velocity": [400, 400, 400, 500, 500, 500],
+                "radius": [1e-6, 2e-6, 3e-6, 1e-6, 2e-6, 3e-6],
+                "beta": [5] * 6,
+            },
+            id="the last input varies fastest",
+        ),
+        pytest.param(
+            """
+            [sweep]
+            case = "beta-3"
+            [inputs]
+            radius = "5 um"
+            """,
+            {"radius": [5e-6], "beta": [3], "velocity": [500], "resistance": [2.1e9]},
+            id="another case",
+        ),
+        pytest.param(
+            """
+            [inputs]
+            resistance = ["98 ksi", 2.1e9]
+            """,
+            {"resistance": [98e3 * PSI, 2.1e9]},
+            id="a resistance",
+        ),
+        pytest.param(
+            "\ufeff[inputs]", {"depth": [final_depth(**BETA_5.motion)]}, id="a byte-order mark"
+        ),
+        pytest.param(
+            """
+            [inputs]
+            radius = ["5.5 um", "11 um", "22 um"]
+            velocity = {average_velocity = "500 m/s", average_mass = 4.96199898868791e-11}
+            """,
+            {"velocity": [500 * 8**0.5, 500, 500 / 8**0.5]},
+            id="Eq. 1: mass goes as the cube of the radius",
+        ),
+    ],
+)
+def test_plans_give_the_expected_cases(
+    plan: str, cases: dict[str, list[float]], tmp_path: Path
+) -> None:
+    computed = all_of(plan_of(tmp_path, dedent(plan)))
+    for name, values in cases.items():
+        assert computed[name].tolist() == pytest.approx(values, rel=1e-15, abs=0)
+    assert ("beta" in computed) == ("resistance =" not in plan)
 
 
 @given(

@@ -140,10 +140,8 @@ def test_each_address_in_the_ledger_computes_its_claim() -> None:
 
 
 def test_a_wrong_address_is_refused() -> None:
-    (claim,) = (claim for claim in LEDGER.claim if claim.id == "depth-beta-5")
-    moved = msgspec.structs.replace(claim, workbook="Sheet beta 5!A1")
-    claims = [moved if entry is claim else entry for entry in LEDGER.claim]
-    wrong = msgspec.structs.replace(LEDGER, claim=claims)
+    moved = msgspec.structs.replace(LEDGER.claim["depth-beta-5"], workbook="Sheet beta 5!A1")
+    wrong = msgspec.structs.replace(LEDGER, claim={**LEDGER.claim, "depth-beta-5": moved})
     with pytest.raises(ValueError, match="'depth-beta-5': the workbook computes nothing in"):
         build(ledger=wrong, record=RECORD)
 

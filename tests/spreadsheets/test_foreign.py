@@ -132,7 +132,7 @@ def test_cells_of_a_table_are_addresses(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("part", [SHEET, "xl/workbook.xml", "xl/sharedStrings.xml"])
 def test_document_types_are_refused(shared: Path, part: str) -> None:
-    """Also one that leads outside the file; `said.txt` has one that declares entities."""
+    """Also one that leads outside the file; `test_refusals.py` has one that declares entities."""
     declared = b'?><!DOCTYPE x SYSTEM "http://127.0.0.1/x.dtd">'
     path = spoiled(shared, lambda data: data.replace(b"?>", declared, 1), part)
     assert "declares a document type" in refusal(path)
@@ -314,7 +314,7 @@ def test_macros_and_links_are_mentioned(plain: Path) -> None:
 
 
 def test_a_password_and_a_changed_archive_are_refused(plain: Path) -> None:
-    """`said.txt` has texts, folders, devices, and files that are cut off or absent."""
+    """`test_refusals.py` has texts, folders, devices, and files that are cut off or absent."""
     sealed = plain.with_name("sealed.xlsx")
     sealed.write_bytes(bytes.fromhex("D0CF11E0A1B11AE1") + bytes(999))
     assert "has a password" in refusal(sealed)

@@ -115,7 +115,9 @@ def typed_inputs(
         number = float(LEDGER.value(source) / to_si(LEDGER.claims[source].unit))
         ledger = ledger.misprint(source, f"{number * draw(0.8, 1.25):.3f}")
     # Sheets are named for their beta, so that the ledger's addresses do not fit.
-    unaddressed = [msgspec.structs.replace(claim, workbook=None) for claim in ledger.claim]
+    unaddressed = {
+        name: msgspec.structs.replace(lines, workbook=None) for name, lines in ledger.claim.items()
+    }
     ledger = msgspec.structs.replace(ledger, claim=unaddressed)
     for name, case in zip(("BETA_3", "BETA_5"), random_cases(seed), strict=True):
         monkeypatch.setattr(workbook, name, case)

@@ -1,0 +1,133 @@
+"""What an audit concludes about a printed number or an equation, and what that rests on."""
+
+from collections.abc import Mapping, Sequence
+from enum import StrEnum
+from fractions import Fraction
+
+import msgspec
+
+from reference.derivations import Check
+from reference.enclosure import Ends
+from reference.ledger import Convention, Equation, Source
+
+
+class Verdict(StrEnum):
+    """What the audit can conclude about a claim or an equation."""
+
+    REPRODUCED = "reproduced"
+    WITHIN_ROUNDING = "reproduced within input rounding"
+    NOT_REPRODUCED = "not reproduced"
+    UNDECIDED = "undecided"
+    CONSISTENT = "consistent"
+    INCONSISTENT = "inconsistent"
+    AGREES = "agrees with public sources"
+    DIFFERS = "differs from public sources"
+    REMARK = "remark, quantified"
+    NOT_CHECKABLE = "not checkable"
+
+    @property
+    def is_failure(self) -> bool:
+        """Whether the entry contradicts the rest of the report; `--exit-code` reports claims."""
+        return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the inputs as printed do not give the entry: explanations are tried for these."""
+        return self.is_failure or self in (Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING)
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether it is open or differs from public sources: `power` counts it as noticed."""
+        return self.is_open or self is Verdict.DIFFERS
+
+
+class Judgement(msgspec.Struct, frozen=True):
+    """The verdict under one convention.
+
+    `ends` is a range proven to contain the value, in the claim's unit: if the printed inputs give
+    the number, for these and all admitted values of the inferred inputs; else for all inputs that
+    print like the report's. Unless the number is reproduced, `witness` holds inputs (SI) that give
+    it, if some are known; it has the mass in place of a radius computed from the mass.
+    `against_evidence`: some value in the range prints like the claim, but it is proven that no
+    inputs give both it and the numbers from which an input is inferred.
+    """
+
+    convention: Convention
+    verdict: Verdict
+    ends: Ends
+    witness: Mapping[str, Fraction] | None = None
+    against_evidence: bool = False
+
+
+class Reading(msgspec.Struct, frozen=True):
+    """The result of one computation of a claim, by one reading of the report; in the claim's unit.
+
+    `computed` is the models' double for the inputs as printed (in a ledger with a misprint, that of
+    the ledger's formula), `reference` the same value to 25 digits; `judgements` has one judgement
+    for every convention, the usual one first.
+    """
+
+    name: str
+    summary: str
+    computed: float
+    reference: str
+    judgements: tuple[Judgement, ...]
+
+    @property
+    def verdict(self) -> Verdict:
+        """The verdict under the usual convention."""
+        return self.judgements[0].verdict
+
+    @property
+    def otherwise(self) -> list[Judgement]:
+        """The judgements whose verdict differs from that under the usual convention."""
+        return [judgement for judgement in self.judgements if judgement.verdict != self.verdict]
+
+
+class Assessment(msgspec.Struct, frozen=True):
+    """The verdict on a claim, and the readings behind it, the one as printed first.
+
+    `no_value` says why the inputs as printed give no value, where they should.
+    """
+
+    verdict: Verdict
+    readings: tuple[Reading, ...] = ()
+    no_value: str = ""
+
+
+class Comparison(msgspec.Struct, frozen=True):
+    """A public source for a claim or an inferred input, and how the two compare."""
+
+    source: Source
+    agrees: bool
+    outcome: str
+
+
+class ConfirmedRange(msgspec.Struct, frozen=True):
+    """The range of a chosen number, in `unit`, for which the `claims` computed from it agree."""
+
+    claims: Sequence[str]
+    interval: tuple[float, float]
+    unit: str
+
+
+class JudgedConstant(msgspec.Struct, frozen=True):
+    """The verdict on a constant of an equation; `needed` are the values that pass every check."""
+
+    claim: str
+    verdict: Verdict
+    needed: list[str]
+
+
+class EquationAssessment(msgspec.Struct, frozen=True):
+    """The verdict on an equation, the checks behind it, and the verdicts on its constants."""
+
+    equation: Equation
+    verdict: Verdict
+    checks: tuple[Check, ...]
+    constants: Mapping[str, JudgedConstant]
+
+    @property
+    def factor(self) -> Fraction | None:
+        """The printed over the derived side; None unless they differ by a constant factor."""
+        return next((check.factor for check in self.checks if check.factor is not None), None)

@@ -1,0 +1,115 @@
+"""`coldspray claims`: list the numbers that the report prints, or prove one."""
+
+import argparse
+from collections.abc import Iterable
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from replication.cli.options import add_json, add_quiet, one_of
+from replication.cli.output import coloured, may_emphasize, put, width
+from replication.reading import advice, quoted
+from replication.text import columns, quantity, with_unit
+
+if TYPE_CHECKING:
+    from reference.ledger import Claim, Ledger
+    from replication.audit.assessment import Verdict
+
+HELP = "list the numbers that the report prints, or prove one"
+EXAMPLE = "coldspray claims frank-zook-rha"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    from replication.audit.assessment import Verdict
+
+    parser.add_argument(
+        "id", metavar="ID", nargs="?",
+        help="prove this claim or equation; or list the claims that print this text, such as 7.67",
+    )  # fmt: skip
+    parser.add_argument(
+        "--verdict", metavar="VERDICT", type=one_of("verdict", Verdict),
+        help=f"list only claims with this verdict: {', '.join(Verdict)}",
+    )  # fmt: skip
+    add_json(parser)
+    add_quiet(parser, argparse.SUPPRESS)  # accepted everywhere; here nothing would be left out
+
+
+def run(options: argparse.Namespace) -> int:
+    """List the claims of the ledger, or prove one claim or equation."""
+    from reference.ledger import load
+
+    ledger, wanted = load(), options.id
+    if options.verdict and wanted in {*ledger.claims, *ledger.equations}:
+        raise ValueError(f"--verdict selects from a list: leave it out to prove {wanted}")
+    if wanted in ledger.claims:
+        return _prove_claim(options, ledger)
+    if wanted in ledger.equations:
+        return _prove_equation(options, ledger)
+    listed = [claim for claim in ledger.claims.values() if wanted in (None, *_texts(claim))]
+    if not listed:
+        hint = advice(wanted, [*ledger.claims, *ledger.equations], "`coldspray claims` lists them")
+        raise ValueError(f"there is no claim {quoted(wanted)}, and none prints that; {hint}")
+    return _list(options, ledger, listed)
+
+
+def _texts(claim: "Claim") -> tuple[str, ...]:
+    """Return the texts by which a claim is found: as printed, as shown, and both with the unit."""
+    texts = (claim.text, claim.shown)
+    units = (with_unit(text, claim.unit) for text in texts)
+    return (*texts, *units, quantity(claim.shown, claim.unit))
+
+
+def _list(options: argparse.Namespace, ledger: "Ledger", listed: "Iterable[Claim]") -> int:
+    """Print these claims; with --verdict those that have it, and the verdict in the JSON."""
+    if options.verdict:
+        from replication.audit.verdict import Judge
+
+        judge = Judge(ledger)
+        listed = [claim for claim in listed if judge.assess(claim).verdict == options.verdict]
+    record = [_record(claim, options.verdict) for claim in listed]
+    rows = [
+        (claim.id, quantity(claim.shown, claim.unit), claim.kind, str(claim.place))
+        for claim in listed
+    ]
+    nothing = f"no such claim is {options.verdict}"
+    text = columns(rows, width(piped=10_000)) if rows else nothing
+    return put(options, record, lambda: text)
+
+
+def _record(claim: "Claim", verdict: "Verdict | None") -> dict[str, Any]:
+    record = {
+        "id": claim.id,
+        "title": claim.title,
+        "unit": claim.unit,
+        "kind": claim.kind,
+        "line": claim.place.line,
+        "section": claim.place.section,
+        "cell": claim.place.cell,
+        "where": str(claim.place),
+        "quote": " ".join(claim.quote.split()),
+        "printed": claim.text,
+    }
+    return record | ({"verdict": verdict} if verdict else {})
+
+
+def _prove_claim(options: argparse.Namespace, ledger: "Ledger") -> int:
+    from replication.audit.audit import Audit
+    from replication.audit.findings import findings_on
+    from replication.report import proof
+    from replication.report.document import claim_document
+
+    audit = Audit(ledger)
+    record, on_it = audit.claim(options.id), findings_on(audit, options.id)
+    text = partial(proof, record, on_it, ledger, width(), may_emphasize())
+    return put(options, claim_document(record), lambda: coloured(text()))
+
+
+def _prove_equation(options: argparse.Namespace, ledger: "Ledger") -> int:
+    from replication.audit.audit import Audit
+    from replication.audit.findings import findings_on
+    from replication.report import equation_proof
+    from replication.report.document import equation_document
+
+    audit = Audit(ledger)
+    record, on_it = audit.equation(options.id), findings_on(audit, options.id)
+    text = partial(equation_proof, record, on_it, ledger, width(), may_emphasize())
+    return put(options, equation_document(record), lambda: coloured(text()))

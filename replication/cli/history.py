@@ -1,0 +1,54 @@
+"""`coldspray history`: print the exact depth and velocity of a case against time."""
+
+import argparse
+
+from replication.cases import inputs_of
+from replication.cli.case import add_inputs, case_of, in_words
+from replication.cli.options import add_csv_and_json, add_quiet, times, whole
+from replication.cli.output import filled, put
+from replication.text import number, numbers
+
+HELP = "print the exact depth and velocity of a case against time"
+EXAMPLE = "coldspray history --times '0 ns,5 ns,10 ns'"
+
+MOST_POINTS = 1_000_000
+"""The most times, counted or listed: their table is held in memory."""
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    wanted = parser.add_mutually_exclusive_group()
+    wanted.add_argument(
+        "--points", metavar="N", type=whole(2, MOST_POINTS), default=101,
+        help="number of times, equally spaced from impact to rest (default: %(default)s)",
+    )  # fmt: skip
+    wanted.add_argument("--times", metavar="T,...", help='these times, such as "0 ns,5 ns"')
+    add_csv_and_json(parser)
+    add_quiet(parser)
+    add_inputs(parser, with_sheet=False)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print depth and velocity at the times asked for, and the time of rest."""
+    from replication.models.motion import history, stop_time
+
+    case, warnings = case_of(options)
+    stop = stop_time(**case.motion)
+    if options.times is None:
+        asked = [stop * (k / (options.points - 1)) for k in range(options.points)]
+    else:
+        asked = times("--times", options.times, MOST_POINTS)
+    depth, velocity = [0.0] * len(asked), [0.0] * len(asked)
+    history(asked, **case.motion, depth=depth, speed=velocity)
+    lists = {"time": asked, "depth": depth, "velocity": velocity}
+    table = list(zip(*lists.values(), strict=True))
+
+    def text() -> str:
+        heads = ("time [ns]", "x [um]", "velocity [m/s]")
+        lines = numbers(heads, ((time * 1e9, x * 1e6, v) for time, x, v in table))
+        return "\n".join(
+            [filled(in_words(case)), "", *lines, "", f"stop time  {number(stop * 1e9, 8)} ns"]
+        )
+
+    record = {"inputs": inputs_of(case), **lists, "stop_time": stop, "warnings": warnings}
+    rows = [dict(zip(lists, row, strict=True)) for row in table] if options.csv else []
+    return put(options, record, text, rows, warnings)

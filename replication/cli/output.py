@@ -1,0 +1,110 @@
+"""Print results: text, JSON or CSV on stdout; warnings and progress on stderr."""
+
+import argparse
+import codecs
+import json
+import os
+import re
+import shutil
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from textwrap import fill
+from typing import Any
+
+from replication.reading import one_line
+from replication.text import json_text, rows_csv
+
+
+def put(
+    options: argparse.Namespace,
+    record: Any,
+    text: Callable[[], str],
+    rows: Sequence[Mapping[str, Any]] = (),
+    warnings: Iterable[object] = (),
+    notes: Iterable[str] = (),
+    quietly: bool = False,
+) -> int:
+    """Print a command's result as JSON, rows of CSV or text, as asked for, and return status 0.
+
+    Warnings, of what is not as expected, go to standard error; notes, of what is, stand below the
+    text. `--quiet` suppresses both; for JSON the record contains them.
+    quietly: the text only reports what was done, so `--quiet` suppresses it, too.
+    """
+    if options.json:
+        put_json(json_text(record))
+        return 0
+    if "csv" in options and options.csv:
+        sys.stdout.write(rows_csv(rows))
+    elif not (quietly and options.quiet):
+        print(text())
+        for note in () if options.quiet else notes:
+            print(filled(f"note: {note}", hanging="  "))
+    for warning in () if options.quiet else warnings:
+        print(one_line(f"coldspray {options.command}: warning: {warning}"), file=sys.stderr)
+    return 0
+
+
+def put_json(text: str) -> None:
+    """Print JSON. It is read as UTF-8, so for any other encoding of stdout use only ASCII."""
+    encoding = getattr(sys.stdout, "encoding", None) or "utf-8"
+    if codecs.lookup(encoding).name != "utf-8":
+        text = re.sub("[^\\x00-\\x7f]", lambda match: json.dumps(match[0])[1:-1], text)
+    sys.stdout.write(text)
+
+
+def is_terminal() -> bool:
+    """Return whether stdout is a terminal."""
+    return sys.stdout.isatty()
+
+
+def width(piped: int = 80) -> int:
+    """Return the number of columns of the terminal, or `piped` if stdout is not a terminal."""
+    return shutil.get_terminal_size().columns if is_terminal() else piped
+
+
+def filled(text: str, indent: str = "", hanging: str = "") -> str:
+    """Wrap a text to the terminal, but to lines of at most 100 characters, which one can read.
+
+    indent and hanging: blanks before the first line, and before the others.
+    """
+    return fill(
+        text, min(width(), 100), initial_indent=indent, subsequent_indent=hanging,
+        break_on_hyphens=False, break_long_words=False,
+    )  # fmt: skip
+
+
+def may_emphasize() -> bool:
+    """Return whether bold text may be printed: on a capable terminal, without NO_COLOR."""
+    is_capable = is_terminal() and os.environ.get("TERM") != "dumb"
+    return is_capable and not os.environ.get("NO_COLOR")
+
+
+_GREEN, _YELLOW, _RED = "\x1b[32m", "\x1b[33m", "\x1b[31m"
+_COLOURS = {
+    "reproduced": _GREEN,
+    "consistent": _GREEN,
+    "agrees with public sources": _GREEN,
+    "reproduced within input rounding": _YELLOW,
+    "undecided": _YELLOW,
+    "differs from public sources": _YELLOW,
+    "not reproduced": _RED,
+    "inconsistent": _RED,
+}
+"""The verdicts that have a colour."""
+
+_VERDICT = re.compile(rf"(?m)(?<=  |: |\d )({'|'.join(_COLOURS)})$")
+"""A verdict that ends a line, after a colon, a count or the blanks between two columns."""
+
+
+def coloured(text: str) -> str:
+    """Colour each verdict that ends a line, if the terminal may be written to in colour."""
+    if not may_emphasize():
+        return text
+    return _VERDICT.sub(lambda match: f"{_COLOURS[match[0]]}{match[0]}\x1b[0m", text)
+
+
+def progress(options: argparse.Namespace, items: Any = None, **settings: Any) -> Any:
+    """Return a progress bar, which shows nothing if quiet or without a terminal."""
+    from tqdm import tqdm
+
+    return tqdm(items, **settings, disable=options.quiet or None)  # None: unless on a terminal

@@ -1,0 +1,44 @@
+"""`coldspray power`: plant misprints in copies of the report, and count what the audit notices."""
+
+import argparse
+from functools import partial
+
+from replication.cli.options import add_json, add_quiet, whole
+from replication.cli.output import progress, put, width
+from replication.text import table_text
+
+HELP = "plant misprints in memory and measure what the audit notices"
+EXAMPLE = "coldspray power --sample 20 --seed 7"
+
+
+def add_options(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument(
+        "--sample", metavar="N", type=whole(1, 1_000_000), default=500,
+        help="number of misprints (default: %(default)s)",
+    )  # fmt: skip
+    parser.add_argument(
+        "--seed", metavar="N", type=whole(0, 2**64 - 1), default=1,
+        help="seed of the random numbers (default: %(default)s)",
+    )  # fmt: skip
+    add_json(parser)
+    add_quiet(parser, "no progress")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Print how many misprints are noticed, by kind of entry and of edit, and which are not."""
+    from reference.ledger import load
+    from replication.power import power
+
+    shown = partial(progress, options, unit=" misprints", leave=False)
+    result = power(load(), options.sample, options.seed, shown)
+    table = result.table()
+    lines = [
+        f"{result.planted} misprints, planted one at a time; {result.invisible} cannot be noticed,",
+        "as all numbers that the audit relates still agree. Of the others, in percent:",
+        "",
+        table_text(table, width(piped=10_000)),
+    ]
+    if result.unnoticed:
+        lines += ["", "Visible, and not noticed:"]
+        lines += ["  {entry}: {true!r} as {text!r}".format_map(plant) for plant in result.unnoticed]
+    return put(options, result, lambda: "\n".join(lines))

@@ -1,0 +1,205 @@
+"""Fit the resistance, or a factor of it, to depths that were measured at several velocities.
+
+The model is the closed form of Eqs. 12-13. What is least is the sum of the squares of the depths'
+residuals, each over its uncertainty if the data have that.
+"""
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from replication.cases import INPUTS
+from replication.columns import bad_rows, column_of, read_columns
+from replication.models import arrays
+from replication.models.depth import elasticities, final_depth
+from replication.models.impact import Impact, InputError, check
+from replication.reading import advice, place, quoted
+
+OTHER_FACTOR = {"resistance": "", "beta": "flow_stress", "flow_stress": "beta"}
+"""What can be fitted, and by which input of the case the resistance is divided (Eq. 7)."""
+
+HEADS = {
+    "velocity": ("velocity", "impact velocity", "v"),
+    "depth": ("depth", "penetration depth", "final depth", "x"),
+    "uncertainty": ("uncertainty", "depth uncertainty", "uncertainty of depth", "sigma"),
+    "radius": ("radius", "particle radius", "r"),
+    "particle_density": ("particle density",),
+    "target_density": ("target density",),
+}
+"""The names by which columns are known: what is measured, and inputs that may differ by row."""
+
+_UNITS = INPUTS | {"depth": "m", "uncertainty": "m"}
+
+
+@dataclass(frozen=True, slots=True)
+class Measurement:
+    """A measured depth X [m] at the inputs of its impact (SI, all but the resistance).
+
+    `uncertainty` is its standard deviation [m], if known; `line` is that of the file.
+    """
+
+    velocity: float
+    radius: float
+    particle_density: float
+    target_density: float
+    depth: float
+    uncertainty: float | None = None
+    line: int = 0
+
+    @property
+    def impact(self) -> tuple[float, float, float, float]:
+        """The inputs of `final_depth` before the resistance."""
+        return self.velocity, self.radius, self.particle_density, self.target_density
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """The fitted quantity in SI units, its standard error, and the residuals of the depths [m].
+
+    With uncertainties, these give the standard error; without, the scatter of the residuals does,
+    and a single point gives None. A residual is the measured depth minus the fitted one.
+    `chi_square` is the sum of the squares of the residuals over their uncertainties, for `points` -
+    1 degrees of freedom, and None without uncertainties. `resistance` is R_t [Pa], whatever factor
+    of it is the quantity.
+    """
+
+    quantity: str
+    value: float
+    standard_error: float | None
+    resistance: float
+    residuals: tuple[float, ...]
+    chi_square: float | None
+
+    @property
+    def points(self) -> int:
+        """Number of measurements."""
+        return len(self.residuals)
+
+
+def read_measurements(path: Path, impact: Impact) -> list[Measurement]:
+    """Read measurements from a file of columns (`replication.columns`), by the names in `HEADS`.
+
+    It must have columns of the velocity and the depth. Inputs that it does not have are the case's.
+    Raises OSError, or ValueError that names the file and the line.
+    """
+    columns = read_columns(path)
+    numbers, lines = {}, columns[0].lines
+    for name, names in HEADS.items():
+        column = column_of(columns, names)
+        if column is not None:
+            numbers[name] = column.numbers(_UNITS[name])
+        elif name in ("velocity", "depth"):
+            heads = ", ".join(quoted(column.head) for column in columns[:6])
+            raise ValueError(
+                f"{path} has no column {name!r}: name one so, such as '{name} [{_UNITS[name]}]' "
+                f"(it has {heads})"
+            )
+    case = {name: impact.motion[name] for name in HEADS if name in impact.motion}
+    measurements, errors = [], []
+    for k, line in enumerate(lines):
+        row = {name: values[k] for name, values in numbers.items()}
+        try:
+            with place(f"{path}, line {line}"):
+                check(row)
+            measurements.append(Measurement(**{**case, **row}, line=line))
+        except ValueError as error:
+            errors.append((line, error))
+    if errors:
+        raise bad_rows(errors)
+    return measurements
+
+
+def fit(impact: Impact, measurements: Sequence[Measurement], quantity: str = "resistance") -> Fit:
+    """Return the least-squares fit of the resistance, "beta" or the "flow_stress" to measurements.
+
+    Of the case only the other factor is used (R_t = beta Y_t, Eq. 7): the flow stress for beta, and
+    beta for the flow stress. Raises ValueError if the case does not have it, if there is no
+    measurement, or if some, but not all, have an uncertainty.
+
+    >>> from replication.cases import BETA_5
+    >>> depths = {400.0: 6.1e-6, 450.0: 6.9e-6, 500.0: 7.6e-6}
+    >>> case = BETA_5.radius, BETA_5.particle_density, BETA_5.target_density
+    >>> fitted = fit(BETA_5, [Measurement(v, *case, x) for v, x in depths.items()], "beta")
+    >>> f"{fitted.value:.2f} +- {fitted.standard_error:.2f}"
+    '5.02 +- 0.04'
+    """
+    factor = _factor(impact, quantity)
+    if not measurements:
+        raise ValueError("there is no measurement to fit")
+    uncertainties = [m.uncertainty for m in measurements if m.uncertainty is not None]
+    if uncertainties and len(uncertainties) < len(measurements):
+        raise ValueError("some measurements have an uncertainty and others not: give all or none")
+    # Without uncertainties all weigh the same: any length does that makes a residual about 1.
+    scale = math.fsum(m.depth for m in measurements) / len(measurements)
+    resistance = _least_squares(measurements, uncertainties or [scale] * len(measurements))
+    residuals = tuple(m.depth - final_depth(*m.impact, resistance) for m in measurements)
+    slopes = [_slope(m, resistance) for m in measurements]
+    chi_square = error = None
+    if uncertainties:
+        pairs = list(zip(residuals, slopes, uncertainties, strict=True))
+        chi_square = math.fsum((residual / sigma) ** 2 for residual, _, sigma in pairs)
+        error = 1 / math.sqrt(math.fsum((slope / sigma) ** 2 for _, slope, sigma in pairs))
+    elif len(measurements) > 1:
+        freedom = len(measurements) - 1
+        error = math.hypot(*residuals) / math.sqrt(freedom) / math.hypot(*slopes)
+    value = resistance / factor
+    standard_error = None if error is None else error * value
+    return Fit(quantity, value, standard_error, resistance, residuals, chi_square)
+
+
+def _factor(impact: Impact, quantity: str) -> float:
+    """Return by what the resistance is divided to give the quantity."""
+    if quantity not in OTHER_FACTOR:
+        raise ValueError(f"cannot fit {quoted(quantity)}: {advice(quantity, OTHER_FACTOR)}")
+    other = OTHER_FACTOR[quantity]
+    factor = getattr(impact, other) if other else 1.0
+    if factor is None:
+        raise ValueError(f"to fit {quantity}, a case with {other} is needed: give it")
+    return float(factor)
+
+
+def _slope(measurement: Measurement, resistance: float) -> float:
+    """Return dX / d ln R_t [m], which is negative."""
+    velocity, _, *densities = measurement.impact
+    by_input = elasticities(velocity, densities[0], densities[1], resistance)
+    return final_depth(*measurement.impact, resistance) * by_input["resistance"]
+
+
+def _least_squares(measurements: Sequence[Measurement], uncertainties: Sequence[float]) -> float:
+    """Return the resistance [Pa] with the least sum of squares.
+
+    Every depth decreases with the resistance, so every minimum lies between the least and the
+    greatest of the resistances that the measurements give singly; the bounds are a little wider, so
+    that none of them is a bound. There may be several minima if the data are far apart: the search
+    starts from the ends and from the median.
+    """
+    from scipy.optimize import least_squares
+
+    single = sorted(_single(m) for m in measurements)
+
+    def residuals(log_resistance: "Sequence[float]") -> list[float]:
+        R_t = math.exp(log_resistance[0])
+        pairs = zip(measurements, uncertainties, strict=True)
+        return [(final_depth(*m.impact, R_t) - m.depth) / sigma for m, sigma in pairs]
+
+    def slopes(log_resistance: "Sequence[float]") -> list[list[float]]:
+        R_t = math.exp(log_resistance[0])
+        pairs = zip(measurements, uncertainties, strict=True)
+        return [[_slope(m, R_t) / sigma] for m, sigma in pairs]
+
+    bounds = math.log(single[0]) - 1, math.log(single[-1]) + 1
+    # The tolerances are those of doubles: a step below them changes nothing.
+    options = {"jac": slopes, "bounds": bounds, "xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15}
+    starts = {single[0], single[len(single) // 2], single[-1]}
+    fits = [least_squares(residuals, [math.log(start)], **options) for start in sorted(starts)]
+    return math.exp(min(fits, key=lambda result: result.cost).x[0])
+
+
+def _single(measurement: Measurement) -> float:
+    """Return the resistance that a measurement gives by itself; errors name its line."""
+    try:
+        return float(arrays.resistance_for_depth(measurement.depth, *measurement.impact))
+    except InputError as error:
+        where = f"line {measurement.line}: " if measurement.line else ""
+        raise ValueError(f"{where}{error}") from error

@@ -1,0 +1,194 @@
+"""Every finding: its numbers hold, its words are the report's, and a misprint takes it away."""
+
+import re
+
+import pytest
+
+from reference.ledger import Ledger, load
+from reference.units import to_si
+from replication.audit import findings as package
+from replication.audit.audit import Audit
+from replication.audit.findings import FINDINGS, findings, findings_on
+from replication.audit.findings.evidence import (
+    above,
+    at_least,
+    at_most,
+    equals,
+    prints,
+    proves,
+    refutes,
+)
+from replication.audit.record import Evidence, Finding, Record
+from replication.audit.results import Results
+
+LEDGER = load()
+
+
+@pytest.fixture(scope="module")
+def made(audit: Audit) -> dict[str, Finding]:
+    """The findings on the report by id, the headline among them."""
+    return {finding.id: finding for finding in findings(audit)}
+
+
+IDS = [find.function.__name__.replace("_", "-") for find in FINDINGS]
+
+
+def test_a_finding_has_the_name_of_its_function(made: dict[str, Finding]) -> None:
+    assert list(made) == IDS
+    assert len(set(IDS)) == len(IDS)
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_every_number_of_a_finding_holds(name: str, made: dict[str, Finding]) -> None:
+    finding = made[name]
+    assert [number.name for number in finding.evidence if not number.holds] == []
+    assert finding.evidence
+    assert finding.holds
+    names = [number.name for number in finding.evidence]
+    assert len(set(names)) == len(names)
+    assert all(to_si(number.unit) for number in finding.evidence)
+
+
+def plain(text: str) -> str:
+    return re.sub(r"[\s$~]", "", text.replace("μ", "u").replace("- um", "-um")).lower()
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_what_a_finding_quotes_stands_in_the_report(name: str, made: dict[str, Finding]) -> None:
+    finding = made[name]
+    whole = " ".join((finding.title, finding.statement, finding.by_hand, finding.settle))
+    report = plain(LEDGER.text)
+    assert [quote for quote in re.findall(r'"(.*?)"', whole) if plain(quote) not in report] == []
+    assert not re.search("[{}`]", whole)
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_a_finding_names_entries_and_says_what_would_settle_it(
+    name: str, made: dict[str, Finding]
+) -> None:
+    finding = made[name]
+    assert LEDGER.claims.keys() | LEDGER.equations.keys() >= set(finding.claims)
+    assert finding.claims
+    assert finding.settle or finding.kind == "headline"
+
+
+NO_EVIDENCE = re.compile(
+    r"""[Ee]q(?:uation|s?\.)\ \d+(?:\ (?:and|to)\ \d+)? | Table\ A-1 | \b304\b | A240
+    | (?:reference|[Ss]ection|[Ff]igure|[Rr]ow)\ \d+ | beta\ =\ [35] | ".*?"
+    | \^\(?-?\d(?:/\d)?\)? | (?<=[(/])\d(?=[\ /)a-zA-Z]) | \d(?=/\d) | (?<=/)\d
+    | \d(?=\ [-+]\ | \ (?:k_t|R_t|rho_|ln)) | (?<=[a-z])_\d""",
+    re.VERBOSE,
+)
+"""Digits that claim nothing: a place in the report, an alloy, a standard, a case, words of the
+report, and the coefficients and exponents of a formula in symbols."""
+
+NUMBER = re.compile(r"\d+(?:\.\d+)?(?:×10[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+|E[-+]?\d+)?(?:/\d+)?")
+
+
+@pytest.mark.parametrize("name", IDS)
+def test_every_number_in_a_statement_is_evidence_or_printed(
+    name: str, made: dict[str, Finding]
+) -> None:
+    """A number that stands in the text alone, and is computed nowhere, would be found here."""
+    finding, results = made[name], Results(LEDGER)
+    known = {str(number) for number in finding.evidence}
+    known |= {shown for claim in LEDGER.claims.values() for shown in NUMBER.findall(claim.shown)}
+    known |= {text for s in LEDGER.sources.values() for text in NUMBER.findall(s.says)}
+    pressures = (c.id for c in LEDGER.claims.values() if c.unit in ("Pa", "MPa"))
+    known |= {results.text(claim, "GPa") for claim in pressures}
+    for text in (finding.title, finding.statement, finding.settle):
+        assert [n for n in NUMBER.findall(NO_EVIDENCE.sub("", text)) if n not in known] == []
+
+
+@pytest.mark.parametrize(
+    ("number", "holds"),
+    [
+        (prints("x", "7.66", 7.6649e-6, "um", "within rounding"), True),
+        (prints("x", "7.66", 7.6651e-6, "um", "beyond rounding"), False),
+        (equals("x", "2", 2, "1", "the same"), True),
+        (equals("x", "2", 2.0000001, "1", "not the same"), False),
+        (at_least("x", "1.147", 1.147001, "1", "more"), True),
+        (at_least("x", "1.147", 1.146999, "1", "less"), False),
+        (at_most("x", "1.073", 1.072, "1", "less"), True),
+        (at_most("x", "1.073", 1.074, "1", "more"), False),
+        (above("x", "2", 2.1, "1", "more"), True),
+        (above("x", "2", 2, "1", "the same"), False),
+        (proves("x", outcome=True, means="proven"), True),
+        (proves("x", outcome=False, means="not proven"), False),
+        (refutes("x", outcome=False, means="refuted"), True),
+        (refutes("x", outcome=True, means="not refuted"), False),
+    ],
+    ids=lambda case: f"{case.asserted} {case.means}" if isinstance(case, Evidence) else "",
+)
+def test_evidence_holds_only_as_its_text_says(number: Evidence, holds: bool) -> None:
+    assert number.holds is holds
+
+
+MISPRINTS = [
+    ("frank-zook-rha", "0.255", {"equation-16", "frank-zook-pair", "frank-zook-values"}),
+    ("volume-ratio-line", "0.085", {"observed-digits"}),
+    ("fz-resistance-rha", "9.31E9", {"two-resistances"}),
+    ("autodyne-steel-yield", "430", {"unlike-strengths"}),
+    ("diameter-deviation", "6.5", {"equation-1-scatter"}),
+    ("yield-strength", "251", {"beta-and-flow-stress"}),
+    ("copper-yield", "19", {"rigid-strength"}),
+    ("coarse-step", "0.6", {"two-schemes"}),
+    ("cth-velocity", "800", {"cth-pressure"}),
+    ("sphere-length-ratio", "1/3", {"sphere-equivalent"}),
+    ("a1-mass", "4.69E-11", {"target-density"}),
+]
+
+
+@pytest.fixture(scope="module")
+def spoiled() -> dict[str, Finding]:
+    """The findings on a report with all of the misprints at once."""
+    ledger: Ledger = LEDGER
+    for claim, text, _ in MISPRINTS:
+        ledger = ledger.misprint(claim, text)
+    return {finding.id: finding for finding in findings(Results(ledger))}
+
+
+@pytest.mark.parametrize(("claim", "text", "names"), MISPRINTS)
+def test_a_finding_whose_evidence_is_misprinted_no_longer_holds(
+    claim: str, text: str, names: set[str], spoiled: dict[str, Finding]
+) -> None:
+    assert [name for name in names if spoiled[name].holds] == []
+
+
+def test_the_headline_of_a_misprinted_report_is_another(spoiled: dict[str, Finding]) -> None:
+    assert not spoiled["headline"].holds
+
+
+def test_numbers_that_a_misprint_leaves_without_a_value_do_not_hold() -> None:
+    ledger = LEDGER.misprint("fz-resistance-rha", "0")
+    finding = {f.id: f for f in findings(Results(ledger))}["equation-16"]
+    assert not finding.holds
+    assert {number.computed for number in finding.evidence} == {None}
+
+
+def test_the_record_has_all_findings_and_begins_with_the_headline(
+    record: Record, made: dict[str, Finding]
+) -> None:
+    assert [finding.id for finding in record.findings] == IDS[1:]
+    assert record.headline == made["headline"].statement
+
+
+def test_a_claim_names_the_findings_on_it() -> None:
+    on_pair = findings_on(Results(LEDGER), "fz-resistance-rha")
+    assert [finding.id for finding in on_pair] == ["frank-zook-pair", "two-resistances"]
+
+
+def test_an_error_in_a_finding_on_the_report_itself_is_not_hidden(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def broken(_: Results) -> Finding:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr(package, "FINDINGS", (broken,))
+    with pytest.raises(ZeroDivisionError):
+        findings(Results(LEDGER))
+
+
+def test_an_audit_of_a_misprinted_report_keeps_its_findings() -> None:
+    spoiled = Audit(LEDGER.misprint("copper-yield", "19"), every_convention=False)
+    assert len(spoiled.record().findings) == len(FINDINGS) - 1
