@@ -127,7 +127,7 @@ class Package:
                 parser.feed(chunk)
                 unfinished = 0 if self.events_left < left else unfinished + len(chunk)
                 if unfinished > _MAX_PIECE:
-                    raise too_much(f"a tag or comment of its part {part} has more than 1 MB")
+                    raise too_much(f"a tag, comment or blank of its part {part} has more than 1 MB")
             return parser.close()
         except WorkbookError:
             raise
