@@ -154,13 +154,19 @@ class Shape:
 # ---- from a text to a shape
 
 _STRING = r'"(?:[^"]|"")*"'
-_SHEET = r"(?:'(?:[^']|'')+'|[^\W\d][\w.]*)!"
+_SHEET = r"(?:'(?:[^']|'')++'|[^\W\d][\w.]*+)!"
 _A1 = re.compile(
-    rf"{_STRING}|(?P<sheet>{_SHEET})?(?<![\w.$])(?:"
+    rf"{_STRING}|(?<![\w.$])(?P<sheet>{_SHEET})?+(?:"
     r"(?P<cell>\$?[A-Za-z]{1,3}\$?[1-9][0-9]{0,6})(?::(?P<to>\$?[A-Za-z]{1,3}\$?[1-9][0-9]{0,6}))?"
     r"|(?P<columns>\$?[A-Za-z]{1,3}:\$?[A-Za-z]{1,3})|(?P<rows>\$?[1-9][0-9]{0,6}:\$?[1-9][0-9]{0,6})"
     r")(?![\w.(!\[])"
+    r"|'(?:[^']|'')*+'?+"
 )
+"""Texts, references, and what else stands in apostrophes, which is skipped as a whole.
+
+What was read is not read again, so that the time grows with the length: a quantifier with a + gives
+nothing back, and a sheet's name starts where a word does.
+"""
 _CELL = re.compile(r"(\$?)([A-Za-z]{1,3})(\$?)([0-9]+)")
 _OPEN, _CLOSE = "\x02", "\x03"
 """They stand around a reference in the key of a shape; no file can hold these characters."""
@@ -213,9 +219,9 @@ def shape_key(text: str, row: int, column: int) -> str:
 
     def relative(match: re.Match[str]) -> str:
         text = match[0]
-        if text[0] == '"':
-            return text
         sheet, cell, to, columns, rows = match.groups()
+        if not (cell or columns or rows):
+            return text
         if cell:
             if _beyond(cell) or (to and _beyond(to)):
                 return text
