@@ -13,7 +13,14 @@ from replication.check.model import refuse_other_model
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
 from replication.check.rows import fit_table
-from replication.check.six import REPORT, VARIANTS, end_of_row, first_speed, start_of_row
+from replication.check.six import (
+    REPORT,
+    VARIANTS,
+    end_of_row,
+    first_speed,
+    origin,
+    start_of_row,
+)
 from replication.check.table import Table, address
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
 from replication.check.units import Equation, Quantity, equations, mended, state_units
@@ -80,14 +87,14 @@ def examine(
 
 
 def _trust_report(inputs: Inputs) -> None:
-    """A number without a unit that is the report's in SI units is in SI units, though not surely."""
+    """Take a number without a unit for SI units if it is the report's, though not surely."""
     for role, source in inputs.cells.items():
         if source.item not in inputs.stated and is_report(role, source.value):
             inputs.stated[source.item] = False
 
 
 def _is_half(found: Sequence[Equation], inputs: Inputs) -> bool:
-    """Whether the number taken for the diameter is the radius: the mass is an eighth of the right one.
+    """Whether the number taken for the diameter is the radius: the mass is an eighth.
 
     The formula for the diameter is then wrong, not that for the mass.
     """
@@ -222,8 +229,10 @@ def _broken_equations(
     if "V" in broken and start is not None and start not in {d.place for d in exam.differences}:
         velocity = inputs.cells["velocity"]
         where = address(velocity.cell, True) if velocity.cell else "its name"
+        start = origin(exam.table, start)
+        kind = "odd formula" if start in exam.table.evaluator.formulas else "typed number"
         text = f"the first velocity is {times['V']:.6g} times {title('velocity')} in {where}"
-        exam.add("odd formula", [start], velocity.value, text)
+        exam.add(kind, [start], velocity.value, text)
 
 
 _PARTS_OF = {"mass": ("particle_density",), "resistance": ("beta", "flow_stress")}
@@ -404,7 +413,7 @@ def _written_in(exam: Examination, inputs: Inputs, name: str) -> tuple[list[Posi
         return [source.cell], title(name)
     start = first_speed(exam.table)
     if name == "V" and start is not None:
-        return [start], "the first velocity"
+        return [origin(exam.table, start)], "the first velocity"
     column, first = exam.fitted.brakes, 1
     if name in ("t = dt", "t = c"):
         column = "time"

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -11,11 +11,11 @@ from reference.units import same_dimension, to_si
 from replication.check.ends import OTHER_STOP
 from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.labels import label_of
-from replication.check.table import address
+from replication.check.table import LEAST, address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import number_in, result_of, times_too, unit_text
 from replication.text import with_unit
-from spreadsheets.evaluate import Evaluator, written
+from spreadsheets.evaluate import Area, Evaluator, written
 from spreadsheets.foreign import Position
 
 _NEAR_END = 3
@@ -49,10 +49,7 @@ def results(exams: Sequence[Examination], evaluator: Evaluator) -> Iterator[Resu
         lined |= set(exam.table.places)
         for line in exam.table.helpers:
             lined |= {line.place(i) for i in line.values}
-    depths = [
-        (exam, {p: k for p, (role, k) in exam.table.places.items() if role == "depth"})
-        for exam in exams
-    ]
+    depths = [(exam, _depth_cells(exam)) for exam in exams]
     known: dict[Position, Result] = {}
     for place in sorted(evaluator.formulas, key=lambda p: evaluator.order.get(p, 0)):
         value = evaluator.values.get(place)
@@ -60,23 +57,52 @@ def results(exams: Sequence[Examination], evaluator: Evaluator) -> Iterator[Resu
             continue
         areas = evaluator.areas(place)
         for exam, cells in depths:
-            direct = [a for a in areas if a.cells > 1 and any(map(a.covers, list(cells)[-1:]))]
-            single = [
-                cells[p]
-                for a in areas
-                if a.cells == 1
-                for p in [(a.sheet, a.top, a.left)]
-                if p in cells
-            ]
-            through = [known[p] for a in areas if a.cells == 1 for p in [(a.sheet, a.top, a.left)]
-                       if p in known and known[p].exam is exam]  # fmt: skip
-            if direct or len(single) == 1 or through:
-                rows = single or [r.k for r in through] or sorted(cells.values(), reverse=True)
-                found = _equals(place, value, exam, rows)
-                if found is not None:
-                    known[place] = found
-                    yield found
-                    break
+            rows = _rows_read(areas, exam, cells, known)
+            result = _equals(place, value, exam, rows) if rows else None
+            if result is not None:
+                known[place] = result
+                yield result
+                break
+
+
+def _depth_cells(exam: Examination) -> list[dict[Position, int]]:
+    """The rows of the cells of the depths, and of each line beside that has them in another unit.
+
+    That may be the radius: X/R.
+    """
+    table = exam.table
+    depths = {p: k for p, (role, k) in table.places.items() if role == "depth"}
+    lines = [depths]
+    rows = {index: k for k, index in table.rows.items()}
+    for line in table.helpers:
+        numbers = {rows[i]: value for i, value in line.values.items() if i in rows}
+        pairs = [(value, table.number("depth", k)) for k, value in numbers.items()]
+        ratios = [value / x for value, x in pairs if x]
+        if len(ratios) >= LEAST and ratios[0] and all(near(r, ratios[0]) for r in ratios):
+            lines.append({line.place(table.rows[k]): k for k in numbers})
+    return lines
+
+
+def _rows_read(
+    areas: Sequence[Area], exam: Examination, lines: Sequence[Mapping[Position, int]],
+    known: Mapping[Position, Result],
+) -> list[int]:  # fmt: skip
+    """The rows whose depths a formula may show, by what it reads: the likely ones first.
+
+    It reads one depth, or a range of them, or another result.
+    """
+    single = {
+        cells[a.corner] for a in areas if a.cells == 1 for cells in lines if a.corner in cells
+    }
+    if single:
+        return list(single) if len(single) == 1 else []
+    through = [known[a.corner] for a in areas if a.cells == 1 and a.corner in known]
+    own = [result.k for result in through if result.exam is exam]
+    if own:
+        return own
+    wide = [a for a in areas if a.cells > 1]
+    ranges = {k for a in wide for cells in lines for place, k in cells.items() if a.covers(place)}
+    return sorted(ranges, reverse=True)
 
 
 def _equals(place: Position, value: float, exam: Examination, rows: Sequence[int]) -> Result | None:
@@ -100,11 +126,11 @@ def _equals(place: Position, value: float, exam: Examination, rows: Sequence[int
 
 
 def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
-    """Report results that show another row than the last, or in another unit than their label says."""
+    """Report results that show another row than the last, or another unit than their label."""
     found = list(results(exams, evaluator))
     wrong: set[Position] = set()
     for result in found:
-        exam, table = result.exam, result.exam.table
+        exam = result.exam
         if any(d.explanation.startswith(OTHER_STOP) for d in exam.differences):
             continue
         read = {(a.sheet, a.top, a.left) for a in evaluator.areas(result.place) if a.cells == 1}
@@ -122,7 +148,6 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
             shown = written(formula.key, result.place[1], result.place[2])
             exam.add(kind, [result.place], expected, text, shown if kind == "odd formula" else unit)
             wrong.add(result.place)
-        _ = table
 
 
 def _fault(
@@ -154,6 +179,8 @@ def _fault(
         return "odd formula", None, "the number is the depth over the diameter, not over the radius"
     if result.over_diameter:
         return None
+    if named == "ratio" and not result.ratio and not unit and _tells_ratio(exam):
+        return "odd formula", None, "the number is the depth, not the depth over the radius"
     if result.ratio:
         wanted = 2 if _PERCENT.search(label) or unit in ("%", "percent") else 0
         if named == "ratio" and result.power != wanted:
@@ -167,6 +194,15 @@ def _fault(
             shown = unit_text("depth", round(power))
             return "unit", shown, f"the label gives {what} in {unit}, but the number is in {shown}"
     return None
+
+
+def _tells_ratio(exam: Examination) -> bool:
+    """Whether X/R is more than X in another unit: the radius is no power of ten."""
+    radius = exam.inputs.get("radius")
+    if radius is None or not 0 < radius.si < math.inf:
+        return False
+    power = math.log10(radius.si)
+    return abs(power - round(power)) > 1e-6
 
 
 # ---- the report's printed final depth and X/R
@@ -212,19 +248,25 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
             beta, number = number_in(label)
             if len(exams) > 1 and beta != "beta":
                 continue
-            if beta == "beta" and not near(number, float(case[-1])):
-                continue
-            kind = result_of(label)
-            value = Fraction(float(evaluator.values[place]))  # type: ignore[arg-type]
-            if not value:
-                continue
-            if kind == "ratio":
-                yield _judged(f"ratio-{case}", place, value, True)
-            elif kind == "depth" and unit and same_dimension(unit, "m"):
-                yield _judged(f"depth-{case}", place, value * to_si(unit), True)
-            elif kind == "depth" and exam.final_depth and value > 0:
-                power = 3 * round(math.log10(exam.final_depth / float(value)) / 3)
-                yield _judged(f"depth-{case}", place, value * Fraction(10) ** power, True)
+            if beta != "beta" or near(number, float(case[-1])):
+                yield from _typed_result(exam, case, place, label, unit)
+
+
+def _typed_result(
+    exam: Examination, case: str, place: Position, label: str, unit: str | None
+) -> Iterator[PrintedCell]:
+    """A typed number as a final depth or X/R of a case, if it may be one."""
+    kind, number = result_of(label), exam.table.evaluator.values[place]
+    if type(number) is not float or not number:
+        return
+    value = Fraction(number)
+    if kind == "ratio":
+        yield _judged(f"ratio-{case}", place, value, True)
+    elif kind == "depth" and unit and same_dimension(unit, "m"):
+        yield _judged(f"depth-{case}", place, value * to_si(unit), True)
+    elif kind == "depth" and exam.final_depth and value > 0:
+        power = 3 * round(math.log10(exam.final_depth / number) / 3)
+        yield _judged(f"depth-{case}", place, value * Fraction(10) ** power, True)
 
 
 def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]]:

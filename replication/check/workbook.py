@@ -31,6 +31,8 @@ from spreadsheets.foreign import Book, Position, read
 
 _MOST_TABLES = 40
 """So many tables of one workbook are judged."""
+_FEW_READ = 100
+"""So many cells behind an error are looked at for a text."""
 _FEW = 3
 """Where all formulas store 0, so few wrong values are stale; more were never calculated."""
 
@@ -409,7 +411,14 @@ def _nothing(evaluator: Evaluator) -> str:
 def _spoiling(evaluator: Evaluator, first: Position | None) -> set[Position]:
     """Return the typed texts that make the first formula with an error give it."""
     read = list(evaluator.precedents(first)) if first else []
-    return {p for p in read if type(evaluator.values.get(p)) is str and p not in evaluator.formulas}
+    typed = set[Position]()
+    for place in read:  # which grows by what formulas that repeat a text read
+        if type(evaluator.values.get(place)) is str:
+            if place not in evaluator.formulas:
+                typed.add(place)
+            elif len(read) < _FEW_READ:
+                read += evaluator.precedents(place)
+    return typed
 
 
 def _labelled_texts(evaluator: Evaluator) -> set[Position]:
