@@ -14,7 +14,7 @@ from replication.check.examination import NO_FAULT, Examination, near
 from replication.check.fit import is_bounded
 from replication.check.responses import Source, is_plain
 from replication.check.roles import Inputs
-from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run
+from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run, start_of_row
 from replication.check.table import address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import input_roles, times_too, title
@@ -35,8 +35,24 @@ def first_rows(exam: Examination, inputs: Inputs, idle: Sequence[Position]) -> N
         _first_depth(exam, inputs)
 
 
+def _half_step(exam: Examination) -> float | None:
+    """The first depth: V times half a step.
+
+    If the depths are accused of their step already, it is the step of the velocities.
+    """
+    table, six, units = exam.table, exam.fitted.six, exam.units
+    wanted = predicted(exam, "depth", 1)
+    accused = {cell for d in exam.differences for cell in d.cells}
+    later = table.place("depth", 2) if 2 in table.rows else None
+    if wanted is None or later not in accused or "deceleration" not in table.lines:
+        return wanted
+    X, A = units.get("depth", 0.0), units.get("deceleration", 0.0)
+    step = abs(six.e) * 10.0 ** (2 * units.get(start_of_row(table)[0], 0.0) - A - X)
+    return wanted * step / six.c if math.isfinite(step) and step else wanted
+
+
 def _first_depth(exam: Examination, inputs: Inputs) -> None:
-    table, wanted = exam.table, predicted(exam, "depth", 1)
+    table, wanted = exam.table, _half_step(exam)
     if wanted is None or not wanted or 1 not in table.rows:
         return
     line, place = table.lines["depth"], table.place("depth", 1)
