@@ -244,9 +244,9 @@ def _verdict(
             expected,
             value,
         )
-    state, given = _alike(exam, inputs, place, shape, usual, k)
-    if same and state and given:
-        return None
+    state, given, reads_more = _alike(exam, inputs, place, shape, usual, k)
+    if same and state and (given or reads_more):
+        return None  # a number in the formula of the others, where this one reads a cell, is theirs
     if same and state:
         text = f"{own} has a number where its column reads a cell: {instead[:200]}; it gives the right value here"
         return "typed constant", text, None, None
@@ -294,8 +294,11 @@ def _spread(exam: Examination, line: Line, expected: float) -> float:
 
 def _alike(
     exam: Examination, inputs: Inputs, place: Position, shape: Shape, usual: Shape, k: int
-) -> tuple[bool, bool]:
-    """Whether a formula responds like its column's to the state of its row, and to the inputs."""
+) -> tuple[bool, bool, bool]:
+    """Whether a formula responds like its column's to the state of its row, and to the inputs.
+
+    Then whether it responds to all inputs to which that one does, and to more.
+    """
     table, evaluator = exam.table, exam.table.evaluator
     probe = Probe(table, k)
     state: dict[Position, float | str | bool | None] = {}
@@ -325,5 +328,15 @@ def _alike(
             return math.isclose(own, want, rel_tol=EXACT)
         return type(own) is type(want)
 
+    def read(formula: Shape) -> set[Position]:
+        first = evaluator.value(place, {}, {}, wide, formula)
+        return {
+            cell
+            for cell, nudged in given.items()
+            if evaluator.value(place, {cell: nudged}, {}, wide, formula) != first
+        }
+
     alike = same(state, {})
-    return alike, same({**state, **given}, numbers) or not alike
+    if not alike or same({**state, **given}, numbers):
+        return alike, True, False
+    return True, False, read(shape) > read(usual)

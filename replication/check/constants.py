@@ -13,7 +13,7 @@ from spreadsheets.evaluate import Scalar
 from spreadsheets.foreign import Position
 
 _TESTED_BY = {
-    "step": ("c = dt", "e = dt", "t = dt", "c = e"), "target": ("G",), "strength": ("H",),
+    "step": ("c = dt", "e = dt", "t = dt", "c = e", "t = c"), "target": ("G",), "strength": ("H",),
     "size": ("D", "G", "H", "mass"), "inertia": ("G", "H"), "speed": ("V",),
 }  # fmt: skip
 """The equations that a typed number breaks if it is not that of the cell."""
@@ -75,7 +75,8 @@ def _cell_for(
         if known is None or (known.cell is None and not known.name):
             continue
         alike = _digits_alike(source.value, known.value)
-        single = family in ("target", "step", "speed")
+        sole = role == "resistance" and _is_sole(source, inputs)
+        single = sole or family in ("target", "step", "speed")
         if inputs.how.get(role) == "unread":
             if alike or single:
                 return role, known.place or known.name
@@ -91,6 +92,11 @@ def _cell_for(
             if wanted := [role for role in FAMILIES[family] if role in roles or not roles]:
                 return wanted[0], place
     return None
+
+
+def _is_sole(source: Source, inputs: Inputs) -> bool:
+    """Whether nothing else that the rows rest on responds as a typed number does."""
+    return all(other is source or other.family != source.family for other in inputs.sources)
 
 
 def _digits_alike(a: float, b: float) -> bool:

@@ -207,8 +207,6 @@ def _stop_velocity(
     unit of the column or in SI units; in any unit if no unit of a velocity is stated.
     """
     last, before = speeds[max(speeds)], speeds.get(max(speeds) - 1, math.inf)
-    if last < 1.0 <= before and exam.firm_speed:
-        return 1.0
     labelled = exam.inputs.get("stop_velocity")
     if labelled is not None and exam.firm_speed:
         return labelled.si

@@ -164,7 +164,7 @@ def _row_to_probe(table: Table) -> int | None:
     for k in table.rows:
         if k < 2 or k - 1 not in table.rows or k + 1 not in table.rows:
             continue
-        good = sum(formulas.get(table.place(role, k)) is shape for role, shape in computed)
+        good = 2 * sum(formulas.get(table.place(role, k)) is shape for role, shape in computed)
         good += sum(formulas.get(table.place(role, k + 1)) is shape for role, shape in computed)
         for line, shape in helpers:
             good += formulas.get(line.place(table.rows[k])) is shape

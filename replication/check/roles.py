@@ -254,7 +254,7 @@ class _Roles:
             plain = is_plain(source.value) and source.value != 0
             if source.cell not in taken and len(roles) == 1 and not plain:
                 (role,) = roles
-                if role not in cells and role not in derived:
+                if (role not in cells or cells[role].cell is None) and role not in derived:
                     (derived if source.computed else cells)[role] = source
                     self.inputs.how[role] = "label"
 

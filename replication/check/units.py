@@ -106,11 +106,12 @@ def _of_step(table: Table, inputs: Inputs, c: Quantity, e: Quantity, t: Quantity
     sides = {"c = dt": ("c", c), "e = dt": ("e", e), "t = dt": ("t", t)}
     if "deceleration" not in table.lines:
         del sides["e = dt"]
-    return {
+    by_cell = {
         name: (side, _of(step))
         for name, (symbol, side) in sides.items()
         if abs(step.powers.get(symbol, 1.0) - 1) < 0.02
     }
+    return by_cell if "t = dt" in by_cell else {**by_cell, "t = c": (t, c)}
 
 
 def _of_force(inputs: Inputs, D: Quantity, G: Quantity, H: Quantity) -> _Sides:
