@@ -8,7 +8,7 @@ from replication.check.examination import NO_FAULT, Examination, near
 from replication.check.fit import is_bounded
 from replication.check.responses import Source, is_plain
 from replication.check.roles import Inputs
-from replication.check.six import VARIANTS, end_of_row, first_speed, run
+from replication.check.six import VARIANTS, end_of_row, first_speed, run, start_of_row
 from replication.check.table import address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import input_roles, times_too, title
@@ -42,6 +42,8 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
         return
     digits = 0.0 if line.computed else exam.fitted.slack + line.rounding(value) / abs(wanted)
     slack, ratio = 1e-9 + 2 * digits, value / wanted
+    if _is_of_step(exam, value, slack):
+        return
     if abs(ratio - 1) <= slack:
         if is_formula:
             _first_response(exam, place, inputs)
@@ -63,6 +65,21 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
     else:
         text = f"{formula_at(exam, place)} does not give V times half a step"
         exam.add("odd formula", [place], wanted, text)
+
+
+def _is_of_step(exam: Examination, value: float, slack: float) -> bool:
+    """Whether a first depth is V times half the step of the cell, where later depths are accused.
+
+    These have another step.
+    """
+    table, step = exam.table, exam.inputs.get("step")
+    accused = {cell for d in exam.differences for cell in d.cells}
+    start = start_of_row(table)
+    v = table.number(start[0], 1 + start[1])
+    if step is None or v is None or table.place("depth", 2) not in accused:
+        return False
+    c = step.si * 10.0 ** (exam.units.get(start[0], 0.0) - exam.units.get("depth", 0.0))
+    return bool(v) and abs(value / (c * v / 2) - 1) <= slack
 
 
 def _first_response(exam: Examination, place: Position, inputs: Inputs) -> None:
@@ -103,9 +120,10 @@ def _first_velocity(exam: Examination, inputs: Inputs, idle: Sequence[Position])
     if is_formula:
         return
     known = _velocity_cell(inputs, idle, first, values)
-    if known is not None and known.cell is not None and known.cell != place:
+    if known is not None and known.cell != place and (known.cell or known.name):
         same = _RIGHT if near(first, known.value) else ""
-        text = f"the first velocity is typed, where {address(known.cell, True)} should be read"
+        where = address(known.cell, True) if known.cell else known.name
+        text = f"the first velocity is typed, where {where} should be read"
         exam.add("typed number", [place], known.value, text + same)
 
 
