@@ -4,6 +4,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from replication.check.beside import units_beside
 from replication.check.cells import feeding, formula_at, odd_cells
 from replication.check.constants import typed_constants, typed_stops
 from replication.check.ends import first_rows, judge_stop
@@ -70,6 +71,7 @@ def examine(
         for item in result[1]:
             _wrong_unit(exam, inputs, item, stated.get(item, 0.0))
     _other_ways(exam)
+    units_beside(exam, inputs)
     compare_with_report(exam, inputs)
     first_rows(exam, inputs, idle)
     odd_cells(exam, inputs)

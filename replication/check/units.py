@@ -225,7 +225,7 @@ _Own = list[tuple[Equation, list[Item]]]
 def _set_apart(
     found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], slack: float
 ) -> tuple[list[Equation], _Own]:
-    """Set equations apart that have a free unit of their own: at the end they can be made to hold."""
+    """Set equations apart that have a free unit of their own: at the end it makes them hold."""
     left, later = list(found), _Own()
     while any(abs(eq.residual(powers)) >= slack for eq in left):
         counts: dict[Item, int] = {}
