@@ -192,7 +192,8 @@ def _beyond_radius(exam: Examination) -> None:
         deep = {k for k in table.rows if (table.number("depth", k) or 0.0) > exam.fitted.six.D / 2}
         blamed = [cell for cell in cells if table.places[cell][1] in deep]
         way = VARIANTS["area beyond the radius"]
-        exam.add("other scheme", blamed or cells, None, f"{way.name}: {way.says}")
+        if blamed:  # rows that end before show nothing wrong
+            exam.add("other scheme", blamed, None, f"{way.name}: {way.says}")
 
 
 def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, steps: int) -> None:
