@@ -53,7 +53,7 @@ Scalar = float | str | bool | None
 """The value of a cell; None is a blank one, and an `Error` is a str, too."""
 
 
-class Fault(Exception):
+class CellError(Exception):
     """An error value on its way through a formula."""
 
     def __init__(self, error: str) -> None:
@@ -61,7 +61,7 @@ class Fault(Exception):
         self.error = Error(error)
 
 
-class NotComputed(Exception):
+class NotComputedError(Exception):
     """A formula is not computed here; the message is the reason."""
 
 
@@ -154,13 +154,19 @@ class Shape:
 # ---- from a text to a shape
 
 _STRING = r'"(?:[^"]|"")*"'
-_SHEET = r"(?:'(?:[^']|'')+'|[^\W\d][\w.]*)!"
+_SHEET = r"(?:'(?:[^']|'')++'|[^\W\d][\w.]*+)!"
 _A1 = re.compile(
-    rf"{_STRING}|(?P<sheet>{_SHEET})?(?<![\w.$])(?:"
+    rf"{_STRING}|(?<![\w.$])(?P<sheet>{_SHEET})?+(?:"
     r"(?P<cell>\$?[A-Za-z]{1,3}\$?[1-9][0-9]{0,6})(?::(?P<to>\$?[A-Za-z]{1,3}\$?[1-9][0-9]{0,6}))?"
     r"|(?P<columns>\$?[A-Za-z]{1,3}:\$?[A-Za-z]{1,3})|(?P<rows>\$?[1-9][0-9]{0,6}:\$?[1-9][0-9]{0,6})"
     r")(?![\w.(!\[])"
+    r"|'(?:[^']|'')*+'?+"
 )
+"""Texts, references, and what else stands in apostrophes, which is skipped as a whole.
+
+What was read is not read again, so that the time grows with the length: a quantifier with a + gives
+nothing back, and a sheet's name starts where a word does.
+"""
 _CELL = re.compile(r"(\$?)([A-Za-z]{1,3})(\$?)([0-9]+)")
 _OPEN, _CLOSE = "\x02", "\x03"
 """They stand around a reference in the key of a shape; no file can hold these characters."""
@@ -213,9 +219,9 @@ def shape_key(text: str, row: int, column: int) -> str:
 
     def relative(match: re.Match[str]) -> str:
         text = match[0]
-        if text[0] == '"':
-            return text
         sheet, cell, to, columns, rows = match.groups()
+        if not (cell or columns or rows):
+            return text
         if cell:
             if _beyond(cell) or (to and _beyond(to)):
                 return text
@@ -290,7 +296,7 @@ class _Parser:
             match = _TOKEN.match(key, at)
             if match is None:
                 what = "it holds an array" if key[at] == "{" else "it cannot be read"
-                raise NotComputed("it refers outside the workbook" if key[at] == "[" else what)
+                raise NotComputedError("it refers outside the workbook" if key[at] == "[" else what)
             kind = match.lastgroup or ""
             if kind != "space":
                 yield kind, match[kind]
@@ -300,7 +306,7 @@ class _Parser:
     def parsed(self) -> Run:
         run = self.expression(0)
         if self.tokens[self.at][0] != "end":
-            raise NotComputed("it cannot be read")
+            raise NotComputedError("it cannot be read")
         return run
 
     def crossed(self, run: Run) -> Run:
@@ -323,7 +329,7 @@ class _Parser:
     def expression(self, least: int) -> Run:
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            raise NotComputed(f"it is nested more than {MAX_DEPTH} levels deep")
+            raise NotComputedError(f"it is nested more than {MAX_DEPTH} levels deep")
         left = self.prefix()
         while True:
             kind, sign = self.tokens[self.at]
@@ -340,7 +346,7 @@ class _Parser:
     def count(self) -> None:
         self.size += 1
         if self.size > MAX_SIZE:
-            raise NotComputed(f"it has more than {MAX_SIZE:,} operations")
+            raise NotComputedError(f"it has more than {MAX_SIZE:,} operations")
 
     def prefix(self) -> Run:
         negative, signs = False, 0
@@ -374,9 +380,9 @@ class _Parser:
         if (kind, text) == ("sign", "("):
             run = self.expression(0)
             if not self.next(")"):
-                raise NotComputed("it cannot be read")
+                raise NotComputedError("it cannot be read")
             return run
-        raise NotComputed("it cannot be read")
+        raise NotComputedError("it cannot be read")
 
     def area(self, text: str) -> Run:
         bang = text.rfind("!")
@@ -385,9 +391,9 @@ class _Parser:
             named = text[:bang]
             named = named[1:-1].replace("''", "'") if named.startswith("'") else named
             if "[" in named:
-                raise NotComputed("it refers outside the workbook")
+                raise NotComputedError("it refers outside the workbook")
             if named.upper() not in self.book.called:
-                raise NotComputed(f"there is no sheet {named[:40]!r}")
+                raise NotComputedError(f"there is no sheet {named[:40]!r}")
             sheet = self.book.called[named.upper()]
         first, last = _END.findall(ends)
         reference = Reference(
@@ -412,10 +418,10 @@ class _Parser:
             meaning = self.book.meanings.get(bare)
         if meaning is None:
             outside = "[" in text and "]" in text
-            raise NotComputed(f"nothing is called {text[:40]}" if not outside else
+            raise NotComputedError(f"nothing is called {text[:40]}" if not outside else
                               f"it refers to {text[:40]}, which is not known")  # fmt: skip
         if bare in self.within or len(self.within) > 8:
-            raise NotComputed(f"the name {text[:40]} refers to itself")
+            raise NotComputedError(f"the name {text[:40]} refers to itself")
         key = shape_key(f"={meaning.removeprefix('=')}", 1, 1)
         inner = _Parser(key, self.sheet, self.book, (*self.within, bare))
         inner.size = self.size
@@ -441,11 +447,11 @@ class _Parser:
                 if self.next(")"):
                     break
                 if not (self.next(",") or self.next(";")):
-                    raise NotComputed("it cannot be read")
+                    raise NotComputedError("it cannot be read")
         if name in OF_SINGLE_VALUES:
             arguments = [None if run is None else self.crossed(run) for run in arguments]
         if name not in FUNCTIONS:
-            raise NotComputed(f"it uses {name[:40]}")
+            raise NotComputedError(f"it uses {name[:40]}")
         return FUNCTIONS[name](name, arguments)
 
 
@@ -456,7 +462,7 @@ def parse(text: str, sheet: str, book: Book, key: str) -> Shape:
     try:
         parser = _Parser(key, sheet, book)
         run = parser.crossed(parser.parsed())
-    except NotComputed as error:
+    except NotComputedError as error:
         return Shape(key, None, reason=str(error))
     return Shape(
         key, run, tuple(dict.fromkeys(parser.references)), tuple(parser.literals), parser.names
@@ -472,7 +478,7 @@ def _constant(value: Scalar) -> Run:
 
 def _failing(error: str) -> Run:
     def run(_: "Site") -> object:
-        raise Fault(error)
+        raise CellError(error)
 
     return run
 
@@ -521,7 +527,7 @@ def scalar(value: object, at: "Site") -> Scalar:
     elif isinstance(value, Area):
         value = at.value(_crossing(value, at))
     if type(value) is Error:
-        raise Fault(value)
+        raise CellError(value)
     return value  # type: ignore[return-value]  # what is no reference is a scalar
 
 
@@ -534,7 +540,7 @@ def _crossing(area: Area, at: "Site") -> Position:
         return sheet, at.row, left
     if top == bottom and left <= at.column <= right:
         return sheet, top, at.column
-    raise Fault("#VALUE!")
+    raise CellError("#VALUE!")
 
 
 _NUMBER = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?\s*(%?)\s*")
@@ -551,14 +557,14 @@ def number(given: object, at: "Site") -> float:
         return float(value)
     match = _NUMBER.fullmatch(str(value))
     if match is None:
-        raise Fault("#VALUE!")
+        raise CellError("#VALUE!")
     return float(str(value).rstrip(" %")) / (100 if match[1] else 1)
 
 
 def finite(value: float) -> float:
-    """The number. Raises Fault if it is none, or beyond the range of doubles."""
+    """The number. Raises CellError if it is none, or beyond the range of doubles."""
     if value - value != 0:
-        raise Fault("#NUM!")
+        raise CellError("#NUM!")
     return value
 
 
@@ -566,12 +572,12 @@ def power(base: float, exponent: float) -> float:
     """A power as spreadsheets compute it."""
     try:
         if base == 0 and exponent <= 0:
-            raise Fault("#NUM!" if exponent == 0 else "#DIV/0!")
+            raise CellError("#NUM!" if exponent == 0 else "#DIV/0!")
         result = base**exponent
     except (OverflowError, ZeroDivisionError) as error:
-        raise Fault("#NUM!") from error
+        raise CellError("#NUM!") from error
     if isinstance(result, complex):
-        raise Fault("#NUM!")
+        raise CellError("#NUM!")
     return finite(result)
 
 
@@ -589,7 +595,7 @@ def _binary(sign: str, left: Run, right: Run) -> Run:
     def run(at: "Site") -> object:
         result = function(number(left(at), at), number(right(at), at))
         if result - result != 0:
-            raise Fault("#NUM!")
+            raise CellError("#NUM!")
         return result
 
     return run
@@ -601,7 +607,7 @@ def _joined(left: Scalar, right: Scalar) -> str:
 
 def _divided(a: float, b: float) -> float:
     if b == 0:
-        raise Fault("#DIV/0!")
+        raise CellError("#DIV/0!")
     return a / b
 
 
@@ -672,12 +678,12 @@ class Site:
         evaluator = self.evaluator
         if self.affected is None:
             if place in evaluator.pending:
-                raise NotComputed("it reads itself, or a formula that needs it")
+                raise NotComputedError("it reads itself, or a formula that needs it")
             return evaluator.values.get(place)
         if place not in self.affected:
             return evaluator.values.get(place)
         if self.depth > MAX_CHAIN:
-            raise NotComputed("it is computed through too many cells")
+            raise NotComputedError("it is computed through too many cells")
         own = self.row, self.column
         self.depth += 1
         result = self.known[place] = evaluator.computed(place, self)
@@ -689,7 +695,7 @@ class Site:
         """Count the cells of a range before they are read."""
         self.evaluator.work += cells
         if self.evaluator.work > MAX_WORK:
-            raise NotComputed(_TOO_MUCH)
+            raise NotComputedError(_TOO_MUCH)
 
 
 class Evaluator:
@@ -804,7 +810,7 @@ class Evaluator:
         if reason is None and shape.run is not None:
             try:
                 return self.evaluated(shape, place, at)
-            except NotComputed as error:
+            except NotComputedError as error:
                 reason = str(error)
             except RecursionError:
                 reason = "it is computed through too many cells"
@@ -819,7 +825,7 @@ class Evaluator:
         at.row, at.column = place[1:]
         try:
             value = scalar(shape.run(at), at)
-        except Fault as fault:
+        except CellError as fault:
             return fault.error
         except (OverflowError, ValueError, ZeroDivisionError):
             return Error("#NUM!")
@@ -852,7 +858,7 @@ class Evaluator:
             return None
         try:
             return self.evaluated(shape, place, at)
-        except (NotComputed, RecursionError):
+        except (NotComputedError, RecursionError):
             return None
 
     def cone(self, places: Iterable[Position], stop: Container[Position]) -> frozenset[Position]:

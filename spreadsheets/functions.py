@@ -9,9 +9,9 @@ from collections.abc import Callable, Iterator, Sequence
 
 from spreadsheets.evaluate import (
     Area,
+    CellError,
     Error,
-    Fault,
-    NotComputed,
+    NotComputedError,
     One,
     Run,
     Scalar,
@@ -42,9 +42,9 @@ def cells_of(area: Area, at: Site) -> Iterator[Scalar]:
 
 
 def count_arguments(name: str, arguments: Arguments, least: int, most: int) -> None:
-    """Raise NotComputed unless there are so many arguments."""
+    """Raise NotComputedError unless there are so many arguments."""
     if not least <= len(arguments) <= most:
-        raise NotComputed(f"it gives {name} {len(arguments)} arguments")
+        raise NotComputedError(f"it gives {name} {len(arguments)} arguments")
 
 
 # ---- functions of numbers
@@ -52,7 +52,7 @@ def count_arguments(name: str, arguments: Arguments, least: int, most: int) -> N
 
 def _logarithm(x: float, base: float = 10.0) -> float:
     if x <= 0 or base <= 0:
-        raise Fault("#NUM!")
+        raise CellError("#NUM!")
     if base == 10:
         return math.log10(x)
     return math.log(x) / math.log(base)
@@ -63,12 +63,12 @@ def _ln(x: float) -> float:
 
 
 def _fail(error: str) -> float:
-    raise Fault(error)
+    raise CellError(error)
 
 
 def _mod(x: float, y: float) -> float:
     if y == 0:
-        raise Fault("#DIV/0!")
+        raise CellError("#DIV/0!")
     rest = x - y * math.floor(x / y)
     # Programs store 0 where x is a multiple of y to fourteen digits.
     return 0.0 if min(abs(rest), abs(y - rest)) <= 1e-14 * abs(x) else rest
@@ -103,7 +103,7 @@ def _ceiling(x: float, step: float = 1.0) -> float:
 
 def _floor(x: float, step: float = 1.0) -> float:
     if step == 0:
-        raise Fault("#DIV/0!")
+        raise CellError("#DIV/0!")
     return math.floor(x / step * (1 + 1e-15)) * step
 
 
@@ -172,7 +172,7 @@ def _numbers(name: str, arguments: Arguments, at: Site) -> list[float]:
             if type(cell) is float:
                 numbers.append(cell)
             elif type(cell) is Error and name != "COUNT":
-                raise Fault(cell)
+                raise CellError(cell)
     return numbers
 
 
@@ -207,13 +207,13 @@ def _squares(numbers: list[float]) -> float:
 def _median(numbers: list[float]) -> float:
     ordered, middle = sorted(numbers), len(numbers) // 2
     if not ordered:
-        raise Fault("#NUM!")
+        raise CellError("#NUM!")
     return ordered[middle] if len(ordered) % 2 else (ordered[middle - 1] + ordered[middle]) / 2
 
 
 def _deviation(numbers: list[float]) -> float:
     if len(numbers) < 2:
-        raise Fault("#DIV/0!")
+        raise CellError("#DIV/0!")
     mean = math.fsum(numbers) / len(numbers)
     return math.sqrt(math.fsum((x - mean) ** 2 for x in numbers) / (len(numbers) - 1))
 
@@ -272,7 +272,7 @@ def truth(value: Scalar) -> bool:
     if isinstance(value, str):
         if value.upper() in ("TRUE", "FALSE"):
             return value.upper() == "TRUE"
-        raise Fault("#VALUE!")
+        raise CellError("#VALUE!")
     return bool(value)
 
 
@@ -281,7 +281,7 @@ def _if(name: str, arguments: Arguments) -> Run:
     test, then, *rest = arguments
     otherwise = rest[0] if rest else None
     if test is None:
-        raise NotComputed("it has an IF without a condition")
+        raise NotComputedError("it has an IF without a condition")
 
     def run(at: Site) -> object:
         if truth(scalar(test(at), at)):
@@ -293,12 +293,12 @@ def _if(name: str, arguments: Arguments) -> Run:
     return run
 
 
-def _ifs(name: str, arguments: Arguments) -> Run:
+def _ifs(_name: str, arguments: Arguments) -> Run:
     def run(at: Site) -> object:
         for test, then in zip(arguments[::2], arguments[1::2], strict=False):
             if test is not None and truth(scalar(test(at), at)):
                 return 0.0 if then is None else then(at)
-        raise Fault("#N/A")
+        raise CellError("#N/A")
 
     return run
 
@@ -310,7 +310,7 @@ def _iferror(name: str, arguments: Arguments) -> Run:
     def run(at: Site) -> object:
         try:
             return None if first is None else scalar(first(at), at)
-        except (Fault, OverflowError, ValueError, ZeroDivisionError) as fault:
+        except (CellError, OverflowError, ValueError, ZeroDivisionError) as fault:
             if name == "IFNA" and getattr(fault, "error", "") != "#N/A":
                 raise
             return 0.0 if second is None else second(at)
@@ -327,13 +327,13 @@ def _and_or(name: str, arguments: Arguments) -> Run:
             if area is not None and area.cells > 1:
                 for cell in cells_of(area, at):
                     if type(cell) is Error:
-                        raise Fault(cell)
+                        raise CellError(cell)
                     if isinstance(cell, bool | float):
                         truths.append(bool(cell))
             else:
                 truths.append(truth(scalar(value, at)))
         if not truths:
-            raise Fault("#VALUE!")
+            raise CellError("#VALUE!")
         return all(truths) if name == "AND" else any(truths)
 
     return run
@@ -357,7 +357,7 @@ def _is(name: str, arguments: Arguments) -> Run:
     def run(at: Site) -> object:
         try:
             value = None if argument is None else scalar(argument(at), at)
-        except Fault as fault:
+        except CellError as fault:
             return (name == "ISERROR" or (name == "ISNA" and fault.error == "#N/A")
                     or (name == "ISERR" and fault.error != "#N/A"))  # fmt: skip
         except (OverflowError, ValueError, ZeroDivisionError):
@@ -384,15 +384,15 @@ def _n(name: str, arguments: Arguments) -> Run:
     return run
 
 
-def _na(name: str, arguments: Arguments) -> Run:
-    def run(at: Site) -> object:
-        raise Fault("#N/A")
+def _na(_name: str, _arguments: Arguments) -> Run:
+    def run(_at: Site) -> object:
+        raise CellError("#N/A")
 
     return run
 
 
-def _truth_value(name: str, arguments: Arguments) -> Run:
-    return lambda at: name == "TRUE"
+def _truth_value(name: str, _arguments: Arguments) -> Run:
+    return lambda _: name == "TRUE"
 
 
 def _choose(name: str, arguments: Arguments) -> Run:
@@ -402,7 +402,7 @@ def _choose(name: str, arguments: Arguments) -> Run:
     def run(at: Site) -> object:
         n = int(number(index(at) if index else 0.0, at))
         if not 1 <= n <= len(choices):
-            raise Fault("#VALUE!")
+            raise CellError("#VALUE!")
         choice = choices[n - 1]
         return 0.0 if choice is None else choice(at)
 
@@ -420,7 +420,7 @@ def _place(name: str, arguments: Arguments) -> Run:
         argument = arguments[0] if arguments else None
         area = area_of(argument(at)) if argument else Area("", at.row, at.column, at.row, at.column)
         if area is None:
-            raise Fault("#VALUE!")
+            raise CellError("#VALUE!")
         match name:
             case "ROW":
                 return float(area.top)
@@ -436,7 +436,7 @@ def _place(name: str, arguments: Arguments) -> Run:
 def _area_argument(argument: Run | None, at: Site) -> Area:
     area = area_of(argument(at)) if argument else None
     if area is None:
-        raise Fault("#VALUE!")
+        raise CellError("#VALUE!")
     return area
 
 
@@ -455,7 +455,7 @@ def _index(name: str, arguments: Arguments) -> Run:
             r, c = (1, r) if area.top == area.bottom else (r, 1 if area.left == area.right else 0)
         height, width = area.bottom - area.top + 1, area.right - area.left + 1
         if not (0 <= r <= height and 0 <= c <= width):
-            raise Fault("#REF!")
+            raise CellError("#REF!")
         top, bottom = (area.top + r - 1,) * 2 if r else (area.top, area.bottom)
         left, right = (area.left + c - 1,) * 2 if c else (area.left, area.right)
         if (top, left) == (bottom, right):
@@ -478,10 +478,10 @@ def _offset(name: str, arguments: Arguments) -> Run:
             width = _whole(arguments[4], at, width)
         top, left = area.top + down, area.left + right
         if top < 1 or left < 1 or height < 1 or width < 1:
-            raise Fault("#REF!")
+            raise CellError("#REF!")
         moved = Area(area.sheet, top, left, top + height - 1, left + width - 1)
         if at.affected is None and any(p in at.evaluator.pending for p in _some(moved, at)):
-            raise NotComputed("it uses OFFSET to read formulas that come later")
+            raise NotComputedError("it uses OFFSET to read formulas that come later")
         return One(area.sheet, top, left) if moved.cells == 1 else moved
 
     return run
@@ -496,7 +496,7 @@ def _some(area: Area, at: Site) -> Iterator[tuple[str, int, int]]:
 def _line(area: Area, at: Site) -> Values:
     """The values of one row or column, as far as the sheet uses it."""
     if area.top != area.bottom and area.left != area.right:
-        raise Fault("#N/A")
+        raise CellError("#N/A")
     return list(cells_of(area, at))
 
 
@@ -511,10 +511,11 @@ def _found(wanted: Scalar, values: Values, kind: int) -> int:
     """Where a value stands: exactly (0), the last not above it (1), the last not below it (-1)."""
     if kind == 0:
         for index, value in enumerate(values):
-            if value is not None and type(value) is not Error and compared("=", value, wanted):
-                if isinstance(value, str) == isinstance(wanted, str):
-                    return index
-        raise Fault("#N/A")
+            same_kind = isinstance(value, str) == isinstance(wanted, str)
+            none = value is None or type(value) is Error
+            if same_kind and not none and compared("=", value, wanted):
+                return index
+        raise CellError("#N/A")
     best, sign = -1, "<=" if kind > 0 else ">="
     for index, value in enumerate(values):
         if value is None or isinstance(value, Error) or type(value) is not type(wanted):
@@ -524,7 +525,7 @@ def _found(wanted: Scalar, values: Values, kind: int) -> int:
         else:
             break
     if best < 0:
-        raise Fault("#N/A")
+        raise CellError("#N/A")
     return best
 
 
@@ -551,7 +552,7 @@ def _lookup(name: str, arguments: Arguments) -> Run:
         if isinstance(wanted, float):  # sorted or not, the last number not above it
             best = [i for i, v in enumerate(values) if type(v) is float and v <= wanted]
             if not best:
-                raise Fault("#N/A")
+                raise CellError("#N/A")
             return _at(result, best[-1])
         return _at(result, _found(wanted, values, 1))
 
@@ -573,7 +574,7 @@ def _vlookup(name: str, arguments: Arguments) -> Run:
         searched = area._replace(right=area.left) if down else area._replace(bottom=area.top)
         index = _found(wanted, _line(searched, at), int(near))
         if number_of < 1:
-            raise Fault("#VALUE!")
+            raise CellError("#VALUE!")
         if down:
             return One(area.sheet, area.top + index, area.left + number_of - 1)
         return One(area.sheet, area.top + number_of - 1, area.left + index)
@@ -599,7 +600,7 @@ def _meets(value: Scalar, criterion: Scalar) -> bool:
     except ValueError:
         wanted = rest
         if "*" in rest or "?" in rest:
-            raise NotComputed("it searches with wildcards") from None
+            raise NotComputedError("it searches with wildcards") from None
     if isinstance(wanted, float):
         return compared(sign, value, wanted) if type(value) is float else sign == "<>"
     if rest == "":
@@ -609,51 +610,59 @@ def _meets(value: Scalar, criterion: Scalar) -> bool:
 
 def _conditional(name: str, arguments: Arguments) -> Run:
     """COUNTIF(S), SUMIF(S), AVERAGEIF, MAXIFS and MINIFS."""
-    many = name.endswith("IFS")
-    counts = name.startswith("COUNT")
+    result, pairs = _conditions(name, arguments)
+    if not pairs:
+        raise NotComputedError(f"it gives {name} {len(arguments)} arguments")
 
     def run(at: Site) -> object:
-        areas: list[Area | None] = []
-        rest = list(arguments)
-        taken = None
-        if many and not counts:
-            taken = _area_argument(rest.pop(0), at)
-        elif not many and not counts and len(rest) == 3:
-            taken = _area_argument(rest.pop(), at)
-        pairs = list(zip(rest[::2], rest[1::2], strict=False))
-        if not pairs:
-            raise NotComputed(f"it gives {name} {len(arguments)} arguments")
-        areas = [_area_argument(a, at) for a, _ in pairs]
-        wanted = [scalar(c(at) if c else "", at) for _, c in pairs]
-        first = areas[0]
-        assert first is not None
-        used = at.evaluator.used(first)
-        height, width = used.bottom - used.top + 1, used.right - used.left + 1
-        at.spend(used.cells * (len(pairs) + 1))
-        numbers: list[float] = []
-        for i in range(height):
-            for j in range(width):
-                met = all(
-                    _meets(at.value((a.sheet, a.top + i, a.left + j)), w)
-                    for a, w in zip(areas, wanted, strict=True)
-                    if a is not None
-                )
-                if met:
-                    source = taken or first
-                    value = at.value((source.sheet, source.top + i, source.left + j))
-                    if counts:
-                        numbers.append(1.0)
-                    elif type(value) is float:
-                        numbers.append(value)
-        if counts:
-            return float(len(numbers))
-        if name.startswith("SUM"):
-            return _sum(numbers)
-        if name.startswith("AVERAGE"):
-            return _average(numbers)
-        return _largest(numbers) if name.startswith("MAX") else _smallest(numbers)
+        areas = [_area_argument(area, at) for area, _ in pairs]
+        wanted = [scalar(criterion(at) if criterion else "", at) for _, criterion in pairs]
+        source = areas[0] if result is None else _area_argument(result[0], at)
+        values = _meeting(areas, wanted, source, at)
+        if name.startswith("COUNT"):
+            return float(len(values))
+        return _total(name, [value for value in values if type(value) is float])
 
     return run
+
+
+def _conditions(
+    name: str, arguments: Arguments
+) -> tuple[Arguments | None, list[tuple[Run | None, Run | None]]]:
+    """The range that is counted, if it is given by itself, and all ranges with their criteria."""
+    rest, result = list(arguments), None
+    if name.endswith("IFS") and not name.startswith("COUNT"):
+        result, rest = rest[:1], rest[1:]
+    elif not name.endswith("IFS") and not name.startswith("COUNT") and len(rest) == 3:
+        result, rest = rest[2:], rest[:2]
+    return result, list(zip(rest[::2], rest[1::2], strict=False))
+
+
+def _meeting(areas: Sequence[Area], wanted: Values, source: Area, at: Site) -> Values:
+    """The values of a range in whose places all ranges meet their criteria."""
+    used = at.evaluator.used(areas[0])
+    height, width = used.bottom - used.top + 1, used.right - used.left + 1
+    at.spend(used.cells * (len(areas) + 1))
+
+    def met(i: int, j: int) -> bool:
+        cells = ((area.sheet, area.top + i, area.left + j) for area in areas)
+        return all(_meets(at.value(cell), w) for cell, w in zip(cells, wanted, strict=True))
+
+    return [
+        at.value((source.sheet, source.top + i, source.left + j))
+        for i in range(height)
+        for j in range(width)
+        if met(i, j)
+    ]
+
+
+def _total(name: str, numbers: list[float]) -> float:
+    """The sum, mean, largest or smallest of some numbers."""
+    if name.startswith("SUM"):
+        return _sum(numbers)
+    if name.startswith("AVERAGE"):
+        return _average(numbers)
+    return _largest(numbers) if name.startswith("MAX") else _smallest(numbers)
 
 
 def _sumproduct(name: str, arguments: Arguments) -> Run:
@@ -662,15 +671,15 @@ def _sumproduct(name: str, arguments: Arguments) -> Run:
     def run(at: Site) -> object:
         areas = [area_of(a(at)) if a else None for a in arguments]
         if None in areas:
-            raise NotComputed("it uses SUMPRODUCT of more than ranges")
+            raise NotComputedError("it uses SUMPRODUCT of more than ranges")
         columns = [list(cells_of(a, at)) for a in areas if a is not None]
         if len({len(c) for c in columns}) != 1:
-            raise Fault("#VALUE!")
+            raise CellError("#VALUE!")
         total = 0.0
         for values in zip(*columns, strict=True):
             for value in values:
                 if type(value) is Error:
-                    raise Fault(value)
+                    raise CellError(value)
             total += math.prod(v if type(v) is float else 0.0 for v in values)
         return finite(total)
 
@@ -685,7 +694,7 @@ def _ranked(name: str, arguments: Arguments) -> Run:
         numbers = sorted(_numbers(name, arguments[:1], at), reverse=name == "LARGE")
         k = _whole(arguments[1], at)
         if not 1 <= k <= len(numbers):
-            raise Fault("#NUM!")
+            raise CellError("#NUM!")
         return numbers[k - 1]
 
     return run

@@ -41,7 +41,7 @@ def examine(
     table: Table, names: Mapping[Position, str], given: Mapping[str, Position],
     idle: Sequence[Position], typed: Sequence[Position],
 ) -> Examination:  # fmt: skip
-    """Judge a table. Raises AnotherModel if it does not follow the report's.
+    """Judge a table. Raises AnotherModelError if it does not follow the report's.
 
     `names` are the names of cells, `given` the cells of inputs that the user named, `idle` numbers
     that no table reads, `typed` all typed numbers beside the table.

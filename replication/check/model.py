@@ -21,14 +21,14 @@ _FEW_ROWS = 6
 """Of fewer rows without formulas it cannot be said that they follow another model."""
 
 
-class AnotherModel(ValueError):
+class AnotherModelError(ValueError):
     """A table follows another model than the report's. The message says which formula tells."""
 
 
 def refuse_other_model(
     exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
 ) -> None:
-    """Raise AnotherModel if the formulas are not the report's, and the inputs are not either.
+    """Raise AnotherModelError if the formulas are not the report's, and the inputs are not either.
 
     Formulas that are not the report's are a fault if the rest of the table is: if two of the
     equations between its numbers and cells hold, or if its inputs are known.
@@ -37,10 +37,12 @@ def refuse_other_model(
     for role, source in inputs.cells.items():
         if source.cell in exam.read and source.value <= 0 and role != "stop_velocity":
             where = address(source.cell, True)
-            raise AnotherModel(f"{where}: {title(role)} is {source.value:g}: no impact has that")
+            raise AnotherModelError(
+                f"{where}: {title(role)} is {source.value:g}: no impact has that"
+            )
     if fitted.probe is None:
         if not (_rows_agree(exam) and _steps_agree(found, inputs, slack)):
-            raise AnotherModel(_sentence(exam, "deceleration"))
+            raise AnotherModelError(_sentence(exam, "deceleration"))
         return
     wrong = [role for role, way in fitted.ways.items() if way is not REPORT[role]]
     force = fitted.ways.get("deceleration", REPORT["deceleration"])
@@ -53,7 +55,9 @@ def refuse_other_model(
     known, report = _known_families(inputs)
     if known >= _LEAST_KNOWN and (strong or report > 1):
         return
-    raise AnotherModel(_sentence(exam, wrong[0] if "deceleration" not in wrong else "deceleration"))
+    raise AnotherModelError(
+        _sentence(exam, wrong[0] if "deceleration" not in wrong else "deceleration")
+    )
 
 
 def _known_families(inputs: Inputs) -> tuple[int, int]:

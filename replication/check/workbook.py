@@ -10,7 +10,7 @@ from reference.units import same_dimension
 from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.judge import examine
 from replication.check.labels import cell_names, label_of
-from replication.check.model import AnotherModel
+from replication.check.model import AnotherModelError
 from replication.check.repair import Slipped, Still, mended, moving, slipped, standing
 from replication.check.results import PrintedCell, judge_results, printed_cells
 from replication.check.stale import stale
@@ -109,7 +109,7 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
                     table, names, cells, _beside(table, idle, found), _typed_numbers(table, found)
                 )
             )
-        except AnotherModel as error:
+        except AnotherModelError as error:
             others.append(str(error))
     if not exams:
         raise ValueError(others[0])

@@ -162,6 +162,16 @@ def test_formulas_of_odd_signs_are_compared(text: str, tmp_path: Path) -> None:
     assert coldspray("diff", a, b)[0] == 1
 
 
+@pytest.mark.parametrize(
+    "text", ["'" * 8001, "'" * 8001 + "A1", "''a" * 2700, "a" * 8190, "1E" * 4000, '"' * 8001]
+)
+def test_names_that_never_end_are_read_once(text: str, tmp_path: Path) -> None:
+    """Looked for anew at each of its letters, a sheet's name would take minutes."""
+    path = written(tmp_path / "a.xlsx", formulas(*[text] * 450))
+    status, _, err = coldspray("check", path)
+    assert (status, err.count("\n")) == (2, 1)
+
+
 @pytest.mark.parametrize("text", ["", " ", "\n", "=", "= "])
 def test_a_blank_formula_is_none(text: str, tmp_path: Path) -> None:
     """Its value stands there as if it was typed."""
