@@ -192,7 +192,7 @@ def _beyond_radius(exam: Examination) -> None:
         deep = {k for k in table.rows if (table.number("depth", k) or 0.0) > exam.fitted.six.D / 2}
         blamed = [cell for cell in cells if table.places[cell][1] in deep]
         way = VARIANTS["area beyond the radius"]
-        if blamed:  # rows that end before show nothing wrong
+        if blamed:  # rows that end before the radius are right as they are
             exam.add("other scheme", blamed, None, f"{way.name}: {way.says}")
 
 

@@ -56,8 +56,9 @@ def examine(
         _take_for_radius(inputs)
         found = equations(table, exam.fitted, inputs)
     slack = max(CLOSE, exam.fitted.slack)
+    loose = max(slack, _vagueness(exam, slack))
     broken, of_units = _without_unit(exam, inputs, found, slack)
-    result, stated = mended(of_units, inputs, slack), inputs.powers
+    result, stated = mended(of_units, inputs, loose), inputs.powers
     if result is not None:
         inputs.powers = result[0]
     exam.units = {role: inputs.powers.get(("column", role), 0.0) for role in table.lines}
@@ -172,6 +173,11 @@ def _slips(name: str, inputs: Inputs) -> list[tuple[float, str]]:
     return slips
 
 
+def _vagueness(exam: Examination, slack: float) -> float:
+    """How far an equation between numbers without formulas may be off: a unit is ten times more."""
+    return max(_VAGUE * slack, math.log10(1.01)) if exam.fitted.probe is None else 0.0
+
+
 def _without_unit(
     exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
 ) -> tuple[dict[str, str], list[Equation]]:
@@ -181,14 +187,15 @@ def _without_unit(
     """
     broken: dict[str, str] = {}
     mendable: list[Equation] = []
-    vague = max(_VAGUE * slack, math.log10(1.01)) if exam.fitted.probe is None else 0.0
+    vague = _vagueness(exam, slack)
     for eq in found:
         rest = eq.residual(inputs.powers)
         free = [item for item in eq.terms if item not in inputs.stated]
         odd = any(inputs.powers.get(item, 0.0) % 1 for item in eq.terms if item in inputs.stated)
         if odd and abs(rest) < _FEW_DIGITS:
             continue  # converted by a factor of a few digits
-        by_unit = any(unit_power(-rest / eq.terms[item], slack) is not None for item in free)
+        near = max(slack, vague)
+        by_unit = any(unit_power(-rest / eq.terms[item], near) is not None for item in free)
         if abs(rest - round(rest)) <= slack + 2 * CLOSE or abs(rest) < vague or by_unit:
             mendable.append(eq)
             continue
