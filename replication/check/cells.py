@@ -5,18 +5,23 @@ own row. So a wrong cell is found where it stands, and the rows that follow from
 """
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from replication.check.examination import Examination
+from replication.check.examination import Difference, Examination
 from replication.check.fit import Probe
 from replication.check.roles import Inputs
 from replication.check.six import EXACT, start_of_row
-from replication.check.table import Line, Table, behind, runs
+from replication.check.table import LEAST, Line, Table, behind, runs
 from replication.check.words import title
 from replication.reading import quoted
-from spreadsheets.evaluate import Error, LiteralKey, Shape, written
+from spreadsheets.evaluate import Error, Evaluator, LiteralKey, Scalar, Shape, written
 from spreadsheets.foreign import Position
 
+RIGHT_HERE = "; it gives the right value here"
+"""The end of a sentence about a formula or a number that is right as long as nothing changes."""
+BLANK_ROW = "the row is blank"
+"""How the explanation of rows that were cleared begins."""
 _MOST_PROBED = 40
 """So many odd cells of a column are probed; of others only the value is compared."""
 
@@ -54,88 +59,210 @@ def feeding(table: Table) -> list[Line]:
 
 def predicted(exam: Examination, role: str, k: int) -> float | None:
     """What a cell should hold by the six numbers, given the other cells; None if one is missing."""
-    table, six, sign = exam.table, exam.fitted.six, exam.fitted.sign
-    start = start_of_row(table)
-
-    def at(name: str, row: int) -> float | None:
-        return table.number(name, row)
-
-    def u(row: int) -> float | None:
-        return at(start[0], row + start[1])
-
-    def brake(row: int) -> float | None:
-        a = at("deceleration", row)
-        if a is not None:
-            return sign * a
-        x, v = at("depth", row), u(row)
-        return None if "deceleration" in table.lines or x is None or v is None else force(x, v)
-
-    def force(x: float, v: float) -> float:
-        a = six.deceleration(x, v)
-        return six.deceleration(x, v - a * six.e / 2) if exam.fitted.centered else a
-
-    result: float | None = None
+    table = exam.table
+    result: float | None
     if role == "time":
-        before = at("time", k - 1)
-        if before is not None and exam.fitted.time is not None:
-            result = before + exam.fitted.time
+        result = _next_time(exam, k)
     elif role == "depth":
-        before, v = at("depth", k - 1), u(k)
-        if k == 1:
-            result = None if v is None else six.c * v / 2
-        elif before is not None and v is not None:
-            result = before + six.c * v
+        result = _next_depth(exam, k)
     elif role == "deceleration":
-        x, v = at("depth", k), u(k)
-        result = None if x is None or v is None else sign * force(x, v)
+        result = _brake(exam, k)
     elif role == "velocity_initial" and "velocity_final" in table.lines:
-        result = at("velocity_final", k - 1)
+        result = table.number("velocity_final", k - 1)
     else:
-        row = k if role == "velocity_final" else k - 1
-        v, a = u(row), brake(row)
-        result = None if v is None or a is None else v - six.e * a
+        result = _next_velocity(exam, k if role == "velocity_final" else k - 1)
     return result if result is not None and math.isfinite(result) else None
 
 
+def _next_time(exam: Examination, k: int) -> float | None:
+    """The time in row k by that of the row before."""
+    before, step = exam.table.number("time", k - 1), exam.fitted.time
+    return None if before is None or step is None else before + step
+
+
+def _start_velocity(exam: Examination, k: int) -> float | None:
+    """The velocity at the start of row k."""
+    role, lag = start_of_row(exam.table)
+    return exam.table.number(role, k + lag)
+
+
+def _next_depth(exam: Examination, k: int) -> float | None:
+    """The depth in row k by that of the row before and the velocity; half a step in the first."""
+    before, v = exam.table.number("depth", k - 1), _start_velocity(exam, k)
+    if v is None or (before is None and k != 1):
+        return None
+    c = exam.fitted.six.c
+    return c * v / 2 if k == 1 or before is None else before + c * v
+
+
+def _brake(exam: Examination, k: int) -> float | None:
+    """The deceleration in row k by its depth and velocity, with the sign of its column."""
+    x, u = exam.table.number("depth", k), _start_velocity(exam, k)
+    if x is None or u is None:
+        return None
+    six = exam.fitted.six
+    a = six.deceleration(x, u)
+    if exam.fitted.centered:
+        a = six.deceleration(x, u - a * six.e / 2)
+    return exam.fitted.sign * a
+
+
+def _next_velocity(exam: Examination, k: int) -> float | None:
+    """The velocity at the end of row k by that at its start and its deceleration."""
+    v, a = _start_velocity(exam, k), exam.table.number("deceleration", k)
+    if a is None and "deceleration" not in exam.table.lines:
+        a = _brake(exam, k)
+    return None if v is None or a is None else v - exam.fitted.six.e * exam.fitted.sign * a
+
+
 def odd_cells(exam: Examination, inputs: Inputs) -> None:
-    """Report the cells of the table, and of the lines that it reads, that differ from their column."""
+    """Report the cells of a table that differ from their column, also in lines that it reads."""
     table = exam.table
     for role, line in table.lines.items():
-        some_computed = any(o.computed for r, o in table.lines.items() if r not in (role, "time"))
-        if role != "time" and not line.computed and some_computed and len(line.values) > 3:
-            if exam.fitted.probe is not None or role in ("deceleration", "velocity_initial"):
-                cells = [p for p in exam.cells(role, 1) if p not in table.evaluator.formulas]
-                text = f"the whole column of {title(role)} is typed as numbers"
-                exam.add("typed number", cells, None, text)
-                continue
-        _judge_line(exam, inputs, line, role)
+        if _is_pasted(exam, role, line):
+            cells = [p for p in exam.cells(role, 1) if p not in table.evaluator.formulas]
+            text = f"the whole column of {title(role)} is typed as numbers"
+            exam.add("typed number", cells, None, text)
+        else:
+            _judge_line(exam, inputs, line, role)
     helpers = [line for line in feeding(table) if line.usual is not None]
     for helper in helpers:
         _judge_line(exam, inputs, helper, None)
+    _blank_rows(exam)
     _broken_off(exam, [*table.lines.values(), *helpers])
+    _broken_times(exam)
+
+
+def _is_pasted(exam: Examination, role: str, line: Line) -> bool:
+    """Whether a whole column is typed where others are computed."""
+    if role == "time" or line.computed or len(line.values) <= LEAST - 1:
+        return False
+    others = (o for r, o in exam.table.lines.items() if r not in (role, "time"))
+    matters = exam.fitted.probe is not None or role in ("deceleration", "velocity_initial")
+    return matters and any(other.computed for other in others)
+
+
+def _is_blank(evaluator: Evaluator, place: Position) -> bool:
+    return place not in evaluator.formulas and evaluator.values.get(place) is None
+
+
+_FAR = 100
+"""So many blank rows are looked at below a table whose formulas may go on."""
+
+
+def _blank_rows(exam: Examination) -> None:
+    """Report rows that were cleared: formulas of the same columns follow and read the blank cells.
+
+    Rows that are left out of a table of numbers, and two tables below each other, are none: no
+    formula reads the cells between them.
+    """
+    table = exam.table
+    evaluator = table.evaluator
+    usual = [line for line in table.lines.values() if line.usual is not None]
+    shown = set(table.rows.values())
+    last = max(shown)
+    for k, index in sorted(table.rows.items()):
+        after = index + 1
+        while after <= (last if index < last else last + _FAR) and all(
+            _is_blank(evaluator, line.place(after)) for line in usual
+        ):
+            after += 1
+        gap = {line.place(i) for line in usual for i in range(index + 1, after)}
+        goes_on = [o for o in usual if evaluator.formulas.get(o.place(after)) is o.usual]
+        if any(_reads_one(evaluator, line.place(after), gap) for line in goes_on):
+            cells = [line.place(i) for i in range(index + 1, after) for line in usual]
+            text = f"{BLANK_ROW}, though the formulas below it read it"
+            rank = (1, k + 0.5, 0)
+            exam.differences.append(Difference("odd formula", tuple(cells), None, None, text, rank))
+
+
+def _reads_one(evaluator: Evaluator, place: Position, cells: Collection[Position]) -> bool:
+    """Whether a formula reads one of some cells, by itself and not as a part of a range."""
+    return any(area.cells == 1 and area.corner in cells for area in evaluator.areas(place))
 
 
 def _broken_off(exam: Examination, lines: Sequence[Line]) -> None:
-    """Report what ends a table before its formulas do: a text, or a formula that gives an error."""
+    """Report what ends a table before its formulas do: a blank cell, a text, or an error."""
     evaluator, index = exam.table.evaluator, max(exam.table.rows.values()) + 1
     usual = [o for o in lines if o.usual and evaluator.formulas.get(o.place(index)) is o.usual]
     values = [evaluator.values.get(line.place(index)) for line in usual]
-    if not any(isinstance(value, Error) and value != "#N/A" for value in values):
+    if any(isinstance(value, Error) and value != "#N/A" for value in values):
+        cells = [line.place(index) for line in lines if line not in usual]
+        cells = [p for p in cells if type(evaluator.values.get(p)) is not float]
+        if spoilt := [p for p in cells if not _is_blank(evaluator, p)]:
+            _breaks_off(exam, spoilt[0])
         return
     for line in lines:
         place = line.place(index)
-        value, shape = evaluator.values.get(place), evaluator.formulas.get(place)
-        if line in usual or type(value) is float or (value is None and shape is None):
-            continue
-        kind = "odd formula" if shape is not None else "typed number"
-        what = formula_at(exam, place) if shape is not None else "a text is typed here, and"
-        text = (
-            f"{what} gives no number: the table breaks off"
-            if shape is not None
-            else (f"{what} the table breaks off")
-        )
-        exam.add(kind, [place], None, text, quoted(value) if shape is None else str(value))
+        if _is_blank(evaluator, place) and any(
+            _reads_one(evaluator, o.place(index), [place]) for o in usual
+        ):
+            _breaks_off(exam, place)
+            return
+
+
+def _breaks_off(exam: Examination, place: Position) -> None:
+    """Report the cell at which a column stops to give numbers."""
+    evaluator = exam.table.evaluator
+    if place in evaluator.formulas:
+        text = f"{formula_at(exam, place)} gives no number: the table breaks off"
+        exam.add("odd formula", [place], None, text)
+    elif _is_blank(evaluator, place):
+        text = "the cell is blank, though formulas of its row read it: the table breaks off"
+        exam.add("odd formula", [place], None, text)
+    else:
+        value = evaluator.values.get(place)
+        text = f"{typed_what(value)} is typed here: the table breaks off"
+        exam.add("typed number", [place], None, text, quoted(value))
+
+
+def _broken_times(exam: Examination) -> None:
+    """Report a cell after which the times are errors.
+
+    Times grow by a constant: each formula reads the cell before it and nothing else of the rows.
+    """
+    table = exam.table
+    if "time" in table.lines:
         return
+    evaluator = table.evaluator
+    last = max(table.rows.values())
+    known = {line.number for line in table.lines.values()}
+    line = table.lines["depth"]
+    columns = {p[1] if table.across else p[2] for p in evaluator.formulas if p[0] == table.sheet}
+    for number in sorted(columns - known):
+        column = replace(line, number=number)
+        shape = evaluator.formulas.get(column.place(last))
+        if shape is None or not isinstance(evaluator.values.get(column.place(last)), Error):
+            continue
+        index = last
+        while evaluator.formulas.get(column.place(index)) is shape and _adds(column, index):
+            index -= 1
+        if last - index < LEAST or not isinstance(
+            evaluator.values.get(column.place(index + 1)), Error
+        ):
+            continue
+        while isinstance(evaluator.values.get(column.place(index - 1)), Error):
+            index -= 1
+        before = column.place(index - 1)
+        if type(evaluator.values.get(before)) is str and _reads_one(
+            evaluator, column.place(index), [before]
+        ):
+            index -= 1
+        value = evaluator.values.get(column.place(index))
+        if type(value) is not float and not _is_blank(evaluator, column.place(index)):
+            _breaks_off(exam, column.place(index))
+
+
+def _adds(line: Line, index: int) -> bool:
+    """Whether a formula reads the cell before it, and no other cell of its own row or that one."""
+    evaluator, before = line.evaluator, line.place(index - 1)
+    along = 2 if line.across else 1
+    rows = [
+        area.corner for area in evaluator.areas(line.place(index))
+        if area.cells > 1
+        or (area.sheet == line.sheet and area.corner[along] in (index, index - 1))
+    ]  # fmt: skip
+    return rows == [before]
 
 
 def _rows_of(table: Table, line: Line, role: str | None) -> Iterator[tuple[int, Position]]:
@@ -176,82 +303,149 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
         exam.add(str(kind), group, expected, str(text), found)  # type: ignore[arg-type]
 
 
+Verdict = tuple[str, str, object, object]
+"""What is wrong with a cell: its kind, a text, what is expected and what is there."""
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """A cell of row k that has not the usual formula of its line.
+
+    `expected` is the number that it should hold, `instead` the usual formula as it would stand
+    there; `applies` says whether that gives a number.
+    """
+
+    line: Line
+    role: str | None
+    k: int
+    place: Position
+    expected: float | None
+    instead: str
+    applies: bool
+
+    @property
+    def value(self) -> Scalar:
+        """What the cell holds or gives."""
+        return self.line.evaluator.values.get(self.place)
+
+    @property
+    def would(self) -> str:
+        """The end of a sentence, with the formula that should stand there."""
+        return f" where {self.instead[:200]} would stand" if self.instead else ""
+
+
+def _odd_cell(exam: Examination, line: Line, role: str | None, k: int, place: Position) -> _Cell:
+    """A cell with what it should hold: by its column's formula, or by the six numbers."""
+    rows, usual = exam.table.rows, line.usual
+    expected = predicted(exam, role, k) if role else None
+    straight = rows[k] - rows.get(k - 1, rows[k] - 1) == 1
+    if usual is None or not straight:
+        return _Cell(line, role, k, place, expected, "", False)
+    shown = exam.table.evaluator.value(place, {}, shape=usual)
+    applies = type(shown) is float
+    if type(shown) is float:
+        close = expected is None or math.isclose(shown, expected, rel_tol=1e-6, abs_tol=_size(line))
+        expected = shown if close or role is None else expected
+    instead = written(usual.key, place[1], place[2])
+    return _Cell(line, role, k, place, expected, instead, applies)
+
+
 def _verdict(
     exam: Examination, inputs: Inputs, line: Line, role: str | None, k: int, place: Position,
     probe: bool,
-) -> tuple[str, str, object, object] | None:  # fmt: skip
-    """What is wrong with a cell that has not its column's formula: kind, text, expected, found."""
-    table, evaluator = exam.table, exam.table.evaluator
-    usual, shape = line.usual, evaluator.formulas.get(place)
-    value = evaluator.values.get(place)
-    straight = table.rows[k] - table.rows.get(k - 1, table.rows[k] - 1) == 1
-    expected = predicted(exam, role, k) if role else None
-    instead = ""
-    applies = False
-    if usual is not None and straight:
-        shown = evaluator.value(place, {}, shape=usual)
-        exact = type(shown) is float and (
-            expected is None or math.isclose(shown, expected, rel_tol=1e-6, abs_tol=_size(line))
-        )
-        applies = type(shown) is float
-        if type(shown) is float and (exact or role is None):
-            expected = shown
-        instead = written(usual.key, place[1], place[2])
-    would = f" where {instead[:200]} would stand" if instead else ""
-    if value is None and shape is None:
-        if expected is None or (role is None and type(expected) is not float):
-            return None
-        return "odd formula", f"the cell is blank{would}", expected, None
+) -> Verdict | None:  # fmt: skip
+    """What is wrong with a cell that has not its column's formula; None if nothing."""
+    odd = _odd_cell(exam, line, role, k, place)
+    shape = exam.table.evaluator.formulas.get(place)
     if shape is None:
-        if line.computed and usual is not None:
-            if type(value) is float:
-                same = _same(value, expected, line, exam)
-                if role is None and same and k == 1:
-                    return None
-                text = f"a number is typed{would}" + (
-                    "; it gives the right value here" if same else ""
-                )
-                return "typed number", text, expected, value
-            return "typed number", f"a text is typed{would}", expected, quoted(value)
-        if type(value) is float and role and expected is not None:
-            if not _same(value, expected, line, exam):
-                return (
-                    "typed number",
-                    "the number does not follow from the cells before it",
-                    expected,
-                    value,
-                )
-            return None
-        if type(value) is not float and role and role != "time":
-            return "typed number", "the cell holds no number", expected, quoted(value)
+        return _typed(exam, odd)
+    if type(odd.value) is not float:
+        return _without_number(odd)
+    if odd.expected is None:
         return None
-    if isinstance(value, Error) and value != "#N/A" and type(expected) is float:
-        return "odd formula", f"the formula gives {value}", expected, str(value)
-    if type(value) is not float:
-        if role is None or expected is None or value in ("", "#N/A"):
-            return None
-        return "odd formula", f"the formula gives no number{would}", expected, value
-    own = written(shape.key, place[1], place[2])[:200]
-    if expected is None or type(expected) is not float:
-        return None
-    same = _same(value, expected, line, exam)
-    if usual is None or not applies or not probe or exam.fitted.probe is None or role == "time":
-        if same:
-            return None
-        return (
-            "odd formula",
-            f"{own} does not give what the rest of the table does",
-            expected,
-            value,
-        )
-    state, given, reads_more = _alike(exam, inputs, place, shape, usual, k)
-    if same and state and (given or reads_more):
-        return None  # a number in the formula of the others, where this one reads a cell, is theirs
+    same = _same(odd.value, odd.expected, line, exam)
+    usual = line.usual
+    if usual is not None and odd.applies and probe and exam.fitted.probe is not None:
+        return _unlike(odd, own(shape, place), same, _alike(exam, inputs, place, shape, usual, k))
+    return None if same else _other_number(odd, own(shape, place))
+
+
+def own(shape: Shape, place: Position) -> str:
+    """The formula of a cell, cut if it is long."""
+    return written(shape.key, place[1], place[2])[:200]
+
+
+def _other_number(odd: _Cell, formula: str) -> Verdict:
+    text = f"{formula} does not give what the rest of the table does"
+    return "odd formula", text, odd.expected, odd.value
+
+
+def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool, bool]) -> Verdict | None:
+    """The verdict on a formula that responds to the row, or to the inputs, as its column or not.
+
+    A number in the formula of the others, where this one reads a cell, is theirs.
+    """
+    state, given, reads_more = alike
+    if same and state and not given and not reads_more:
+        text = f"{formula} has a number where its column reads a cell: {odd.instead[:200]}"
+        return "typed constant", f"{text}{RIGHT_HERE}", None, None
+    if odd.role == "time":  # which people count up in several ways
+        return None if same else _other_number(odd, formula)
     if same and state:
-        text = f"{own} has a number where its column reads a cell: {instead[:200]}; it gives the right value here"
-        return "typed constant", text, None, None
-    text = f"{own} is unlike its column{would}"
-    return "odd formula", text, expected, value
+        return None
+    return "odd formula", f"{formula} is unlike its column{odd.would}", odd.expected, odd.value
+
+
+def typed_what(value: object) -> str:
+    """What is typed into a cell, for a sentence.
+
+    >>> typed_what(1.0), typed_what("abc"), typed_what(True)
+    ('a number', 'a text', 'a logical value')
+    """
+    if isinstance(value, bool):
+        return "a logical value"
+    return "a number" if isinstance(value, float) else "a text"
+
+
+def _typed(exam: Examination, odd: _Cell) -> Verdict | None:
+    """The verdict on a cell without a formula."""
+    value, line = odd.value, odd.line
+    if value is None:
+        text = f"the cell is blank{odd.would}"
+        return None if odd.expected is None else ("odd formula", text, odd.expected, None)
+    if type(value) is not float:
+        if (line.computed and line.usual is not None) or odd.role not in (None, "time"):
+            text = f"{typed_what(value)} is typed{odd.would}"
+            return "typed number", text, odd.expected, quoted(value)
+        return None
+    same = _same(value, odd.expected, line, exam)
+    if line.computed and line.usual is not None:
+        if odd.role is None and same and odd.k == 1:
+            return None
+        text = f"a number is typed{odd.would}{RIGHT_HERE if same else ''}"
+        return "typed number", text, odd.expected, value
+    if odd.role is None or odd.expected is None or same:
+        return None
+    text = "the number does not follow from the cells before it"
+    return "typed number", text, odd.expected, value
+
+
+def _without_number(odd: _Cell) -> Verdict | None:
+    """The verdict on a formula that gives no number."""
+    value = odd.value
+    if value == "#N/A" and odd.role is not None and _goes_on(odd.line, odd.place):
+        return "odd formula", f"the formula gives {value}{odd.would}", odd.expected, str(value)
+    if isinstance(value, Error) and value != "#N/A" and odd.expected is not None:
+        return "odd formula", f"the formula gives {value}", odd.expected, str(value)
+    if odd.role is None or odd.expected is None or value in ("", "#N/A"):
+        return None
+    return "odd formula", f"the formula gives no number{odd.would}", odd.expected, value
+
+
+def _goes_on(line: Line, place: Position) -> bool:
+    """Whether the usual formula of a line stands below a cell: the rows did not end there."""
+    index = (place[2] if line.across else place[1]) + 1
+    return line.usual is not None and line.evaluator.formulas.get(line.place(index)) is line.usual
 
 
 def _size(line: Line) -> float:

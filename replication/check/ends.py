@@ -3,22 +3,28 @@
 import math
 from collections.abc import Mapping, Sequence
 
-from replication.check.cells import formula_at, predicted
+from replication.check.cells import (
+    BLANK_ROW,
+    RIGHT_HERE,
+    formula_at,
+    predicted,
+    typed_what,
+)
 from replication.check.examination import NO_FAULT, Examination, near
 from replication.check.fit import is_bounded
 from replication.check.responses import Source, is_plain
 from replication.check.roles import Inputs
-from replication.check.six import VARIANTS, end_of_row, first_speed, run, start_of_row
+from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run, start_of_row
 from replication.check.table import address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import input_roles, times_too, title
+from replication.reading import quoted
 from spreadsheets.foreign import Position
 
 OTHER_STOP = "other stop"
 """How the explanation of rows that end elsewhere begins."""
 _SLOW = 0.1
 """A stop velocity is at most this part of the impact velocity."""
-_RIGHT = "; it gives the right value here"
 
 
 def first_rows(exam: Examination, inputs: Inputs, idle: Sequence[Position]) -> None:
@@ -37,8 +43,7 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
     is_formula = place in table.evaluator.formulas
     value, step = table.number("depth", 1), inputs.cells.get("step")
     if value is None:
-        kind = "odd formula" if is_formula else "typed number"
-        exam.add(kind, [place], wanted, "the first depth is no number")
+        _no_number(exam, place, "the first depth", wanted)
         return
     digits = 0.0 if line.computed else exam.fitted.slack + line.rounding(value) / abs(wanted)
     slack, ratio = 1e-9 + 2 * digits, value / wanted
@@ -49,7 +54,7 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
             _first_response(exam, place, inputs)
         elif line.computed and step is not None and step.cell is not None:
             text = f"the first depth is typed, though it rests on {address(step.cell, True)}"
-            exam.add("typed number", [place], wanted, text + _RIGHT)
+            exam.add("typed number", [place], wanted, text + RIGHT_HERE)
         return
     named = {"no half step": 2.0, "starts at zero": 0.0}
     name = next((name for name, times in named.items() if abs(ratio - times) <= slack), None)
@@ -82,6 +87,19 @@ def _is_of_step(exam: Examination, value: float, slack: float) -> bool:
     return bool(v) and abs(value / (c * v / 2) - 1) <= slack
 
 
+def _no_number(exam: Examination, place: Position, what: str, wanted: float) -> None:
+    """Report a cell of the first row that is blank, or holds or gives no number."""
+    value = exam.table.evaluator.values.get(place)
+    if place in exam.table.evaluator.formulas:
+        text = f"{formula_at(exam, place)} gives no number for {what}"
+        exam.add("odd formula", [place], wanted, text)
+    elif value is None:
+        exam.add("odd formula", [place], wanted, f"{what} is blank")
+    else:
+        text = f"{typed_what(value)} is typed for {what}"
+        exam.add("typed number", [place], wanted, text, quoted(value))
+
+
 def _first_response(exam: Examination, place: Position, inputs: Inputs) -> None:
     """Report a first depth that does not respond to the cell of the step or the velocity."""
     evaluator = exam.table.evaluator
@@ -90,6 +108,8 @@ def _first_response(exam: Examination, place: Position, inputs: Inputs) -> None:
         source = inputs.cells.get(role)
         if source is None or source.cell is None or not source.powers:
             continue
+        if role == "velocity" and first_speed(exam.table) in {d.place for d in exam.differences}:
+            continue  # it reads a first velocity that is wrong itself
         now = evaluator.value(place, {source.cell: source.value * 1.01}, within=cone)
         if type(now) is float and type(value) is float and not near(now / value, 1.01):
             where = address(source.cell, True)
@@ -101,6 +121,10 @@ def _first_response(exam: Examination, place: Position, inputs: Inputs) -> None:
 def _first_velocity(exam: Examination, inputs: Inputs, idle: Sequence[Position]) -> None:
     """Judge the velocity that the rows start from: that of the impact, from its cell."""
     table, values = exam.table, exam.table.evaluator.values
+    start = table.place("velocity_initial", 1) if "velocity_initial" in table.lines else None
+    if start is not None and 1 in table.rows and table.number("velocity_initial", 1) is None:
+        _no_number(exam, start, "the first velocity", exam.fitted.six.V)
+        return
     place = first_speed(table)
     if place is None or place in {d.place for d in exam.differences}:
         return
@@ -113,15 +137,12 @@ def _first_velocity(exam: Examination, inputs: Inputs, idle: Sequence[Position])
         shown = formula_at(exam, place) if is_formula else "the first velocity"
         exam.add(kind, [place], impact, f"{shown} is not the velocity of the impact")
         return
-    if is_formula and impact is not None and (zero := table.place("velocity_initial", 0)) != place:
-        read = [area.corner for area in table.evaluator.areas(place)]
-        if read == [zero]:  # it only repeats the velocity of the impact
-            place, is_formula = zero, zero in table.evaluator.formulas
-    if is_formula:
+    place = origin(table, place)
+    if place in table.evaluator.formulas:
         return
     known = _velocity_cell(inputs, idle, first, values)
     if known is not None and known.cell != place and (known.cell or known.name):
-        same = _RIGHT if near(first, known.value) else ""
+        same = RIGHT_HERE if near(first, known.value) else ""
         where = address(known.cell, True) if known.cell else known.name
         text = f"the first velocity is typed, where {where} should be read"
         exam.add("typed number", [place], known.value, text + same)
@@ -165,6 +186,8 @@ def judge_stop(exam: Examination, idle: Sequence[Position]) -> None:
     exam.ends = table.whole and below is not None
     if not table.whole or len(rows) == table.steps:
         exam.ends = table.whole
+    elif any(d.explanation.startswith(BLANK_ROW) for d in exam.differences):
+        exam.ends = False  # what stands below a row that is blank says nothing
     elif below is None:
         _ends_early(exam, speeds, stop, len(rows))
     elif below < max(speeds) and not _shows_stop(exam, below):
@@ -177,7 +200,8 @@ def judge_stop(exam: Examination, idle: Sequence[Position]) -> None:
 def _beyond_radius(exam: Examination) -> None:
     """Report a contact area that shrinks beyond the radius, if the particle gets there."""
     table, six = exam.table, exam.intended
-    assert six is not None and exam.right_depth is not None
+    assert six is not None
+    assert exam.right_depth is not None
     cells = exam.cells(exam.fitted.brakes, 1)
     accused = {d.place for d in exam.differences if d.kind != "stale value"}
     if exam.right_depth <= six.D / 2 or accused.intersection(cells):
@@ -186,7 +210,8 @@ def _beyond_radius(exam: Examination) -> None:
         deep = {k for k in table.rows if (table.number("depth", k) or 0.0) > exam.fitted.six.D / 2}
         blamed = [cell for cell in cells if table.places[cell][1] in deep]
         way = VARIANTS["area beyond the radius"]
-        exam.add("other scheme", blamed or cells, None, f"{way.name}: {way.says}")
+        if blamed:  # rows that end before the radius are right as they are
+            exam.add("other scheme", blamed, None, f"{way.name}: {way.says}")
 
 
 def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, steps: int) -> None:
@@ -243,14 +268,17 @@ def _stop_velocity(
 
 
 def _shows_stop(exam: Examination, below: int) -> bool:
-    """Whether a cell beside the table shows the depth of the row of the stop; later rows are spare."""
+    """Whether a cell beside the table shows the depth of the row of the stop.
+
+    Later rows are then spare.
+    """
     table, evaluator = exam.table, exam.table.evaluator
     depth, place = table.number("depth", below), table.place("depth", below)
     for cell in evaluator.formulas.keys() - table.places.keys():
         value = evaluator.values.get(cell)
         if type(value) is float and depth and value / depth > 0:
             power = math.log10(value / depth)
-            if abs(power - round(power)) < 1e-10:
-                if any(area.covers(place) for area in evaluator.areas(cell)):
-                    return True
+            shows = abs(power - round(power)) < 1e-10
+            if shows and any(area.covers(place) for area in evaluator.areas(cell)):
+                return True
     return False

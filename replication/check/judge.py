@@ -14,7 +14,14 @@ from replication.check.model import blank_inputs, refuse_other_model
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
 from replication.check.rows import fit_table
-from replication.check.six import REPORT, VARIANTS, end_of_row, first_speed, start_of_row
+from replication.check.six import (
+    REPORT,
+    VARIANTS,
+    end_of_row,
+    first_speed,
+    origin,
+    start_of_row,
+)
 from replication.check.table import Table, address
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
 from replication.check.units import Equation, Quantity, equations, mended, state_units
@@ -50,8 +57,9 @@ def examine(
         _take_for_radius(inputs)
         found = equations(table, exam.fitted, inputs)
     slack = max(CLOSE, exam.fitted.slack)
+    loose = max(slack, _vagueness(exam, slack))
     broken, of_units = _without_unit(exam, inputs, found, slack)
-    result, stated = mended(of_units, inputs, slack), inputs.powers
+    result, stated = mended(of_units, inputs, loose), inputs.powers
     if result is not None:
         inputs.powers = result[0]
     exam.units = {role: inputs.powers.get(("column", role), 0.0) for role in table.lines}
@@ -82,14 +90,14 @@ def examine(
 
 
 def _trust_report(inputs: Inputs) -> None:
-    """A number without a unit that is the report's in SI units is in SI units, though not surely."""
+    """Take a number without a unit for SI units if it is the report's, though not surely."""
     for role, source in inputs.cells.items():
         if source.item not in inputs.stated and is_report(role, source.value):
             inputs.stated[source.item] = False
 
 
 def _is_half(found: Sequence[Equation], inputs: Inputs) -> bool:
-    """Whether the number taken for the diameter is the radius: the mass is an eighth of the right one.
+    """Whether the number taken for the diameter is the radius: the mass is an eighth.
 
     The formula for the diameter is then wrong, not that for the mass.
     """
@@ -172,6 +180,11 @@ def _slips(name: str, inputs: Inputs) -> list[tuple[float, str]]:
     return slips
 
 
+def _vagueness(exam: Examination, slack: float) -> float:
+    """How far an equation between numbers without formulas may be off: a unit is ten times more."""
+    return max(_VAGUE * slack, math.log10(1.01)) if exam.fitted.probe is None else 0.0
+
+
 def _without_unit(
     exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
 ) -> tuple[dict[str, str], list[Equation]]:
@@ -181,14 +194,15 @@ def _without_unit(
     """
     broken: dict[str, str] = {}
     mendable: list[Equation] = []
-    vague = max(_VAGUE * slack, math.log10(1.01)) if exam.fitted.probe is None else 0.0
+    vague = _vagueness(exam, slack)
     for eq in found:
         rest = eq.residual(inputs.powers)
         free = [item for item in eq.terms if item not in inputs.stated]
         odd = any(inputs.powers.get(item, 0.0) % 1 for item in eq.terms if item in inputs.stated)
         if odd and abs(rest) < _FEW_DIGITS:
             continue  # converted by a factor of a few digits
-        by_unit = any(unit_power(-rest / eq.terms[item], slack) is not None for item in free)
+        near = max(slack, vague)
+        by_unit = any(unit_power(-rest / eq.terms[item], near) is not None for item in free)
         if abs(rest - round(rest)) <= slack + 2 * CLOSE or abs(rest) < vague or by_unit:
             mendable.append(eq)
             continue
@@ -222,8 +236,10 @@ def _broken_equations(
     if "V" in broken and start is not None and start not in {d.place for d in exam.differences}:
         velocity = inputs.cells["velocity"]
         where = address(velocity.cell, True) if velocity.cell else "its name"
+        start = origin(exam.table, start)
+        kind = "odd formula" if start in exam.table.evaluator.formulas else "typed number"
         text = f"the first velocity is {times['V']:.6g} times {title('velocity')} in {where}"
-        exam.add("odd formula", [start], velocity.value, text)
+        exam.add(kind, [start], velocity.value, text)
 
 
 _PARTS_OF = {"mass": ("particle_density",), "resistance": ("beta", "flow_stress")}
@@ -404,7 +420,7 @@ def _written_in(exam: Examination, inputs: Inputs, name: str) -> tuple[list[Posi
         return [source.cell], title(name)
     start = first_speed(exam.table)
     if name == "V" and start is not None:
-        return [start], "the first velocity"
+        return [origin(exam.table, start)], "the first velocity"
     column, first = exam.fitted.brakes, 1
     if name in ("t = dt", "t = c"):
         column = "time"

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -11,11 +11,11 @@ from reference.units import same_dimension, to_si
 from replication.check.ends import OTHER_STOP
 from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.labels import label_of
-from replication.check.table import address
+from replication.check.table import LEAST, address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import number_in, result_of, times_too, unit_text
 from replication.text import with_unit
-from spreadsheets.evaluate import Evaluator, written
+from spreadsheets.evaluate import Area, Evaluator, written
 from spreadsheets.foreign import Position
 
 _NEAR_END = 3
@@ -49,10 +49,7 @@ def results(exams: Sequence[Examination], evaluator: Evaluator) -> Iterator[Resu
         lined |= set(exam.table.places)
         for line in exam.table.helpers:
             lined |= {line.place(i) for i in line.values}
-    depths = [
-        (exam, {p: k for p, (role, k) in exam.table.places.items() if role == "depth"})
-        for exam in exams
-    ]
+    depths = [(exam, _depth_cells(exam)) for exam in exams]
     known: dict[Position, Result] = {}
     for place in sorted(evaluator.formulas, key=lambda p: evaluator.order.get(p, 0)):
         value = evaluator.values.get(place)
@@ -60,23 +57,52 @@ def results(exams: Sequence[Examination], evaluator: Evaluator) -> Iterator[Resu
             continue
         areas = evaluator.areas(place)
         for exam, cells in depths:
-            direct = [a for a in areas if a.cells > 1 and any(map(a.covers, list(cells)[-1:]))]
-            single = [
-                cells[p]
-                for a in areas
-                if a.cells == 1
-                for p in [(a.sheet, a.top, a.left)]
-                if p in cells
-            ]
-            through = [known[p] for a in areas if a.cells == 1 for p in [(a.sheet, a.top, a.left)]
-                       if p in known and known[p].exam is exam]  # fmt: skip
-            if direct or len(single) == 1 or through:
-                rows = single or [r.k for r in through] or sorted(cells.values(), reverse=True)
-                found = _equals(place, value, exam, rows)
-                if found is not None:
-                    known[place] = found
-                    yield found
-                    break
+            rows = _rows_read(areas, exam, cells, known)
+            result = _equals(place, value, exam, rows) if rows else None
+            if result is not None:
+                known[place] = result
+                yield result
+                break
+
+
+def _depth_cells(exam: Examination) -> list[dict[Position, int]]:
+    """The rows of the cells of the depths, and of each line beside that has them in another unit.
+
+    That may be the radius: X/R.
+    """
+    table = exam.table
+    depths = {p: k for p, (role, k) in table.places.items() if role == "depth"}
+    lines = [depths]
+    rows = {index: k for k, index in table.rows.items()}
+    for line in table.helpers:
+        numbers = {rows[i]: value for i, value in line.values.items() if i in rows}
+        pairs = [(value, table.number("depth", k)) for k, value in numbers.items()]
+        ratios = [value / x for value, x in pairs if x]
+        if len(ratios) >= LEAST and ratios[0] and all(near(r, ratios[0]) for r in ratios):
+            lines.append({line.place(table.rows[k]): k for k in numbers})
+    return lines
+
+
+def _rows_read(
+    areas: Sequence[Area], exam: Examination, lines: Sequence[Mapping[Position, int]],
+    known: Mapping[Position, Result],
+) -> list[int]:  # fmt: skip
+    """The rows whose depths a formula may show, by what it reads: the likely ones first.
+
+    It reads one depth, or a range of them, or another result.
+    """
+    single = {
+        cells[a.corner] for a in areas if a.cells == 1 for cells in lines if a.corner in cells
+    }
+    if single:
+        return list(single) if len(single) == 1 else []
+    through = [known[a.corner] for a in areas if a.cells == 1 and a.corner in known]
+    own = [result.k for result in through if result.exam is exam]
+    if own:
+        return own
+    wide = [a for a in areas if a.cells > 1]
+    ranges = {k for a in wide for cells in lines for place, k in cells.items() if a.covers(place)}
+    return sorted(ranges, reverse=True)
 
 
 def _equals(place: Position, value: float, exam: Examination, rows: Sequence[int]) -> Result | None:
@@ -100,11 +126,11 @@ def _equals(place: Position, value: float, exam: Examination, rows: Sequence[int
 
 
 def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
-    """Report results that show another row than the last, or in another unit than their label says."""
+    """Report results that show another row than the last, or another unit than their label."""
     found = list(results(exams, evaluator))
     wrong: set[Position] = set()
     for result in found:
-        exam, table = result.exam, result.exam.table
+        exam = result.exam
         if any(d.explanation.startswith(OTHER_STOP) for d in exam.differences):
             continue
         read = {(a.sheet, a.top, a.left) for a in evaluator.areas(result.place) if a.cells == 1}
@@ -122,51 +148,75 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
             shown = written(formula.key, result.place[1], result.place[2])
             exam.add(kind, [result.place], expected, text, shown if kind == "odd formula" else unit)
             wrong.add(result.place)
-        _ = table
+
+
+Fault = tuple[str, str | None, str]
+"""What is wrong with a result: its kind, what is expected, and a sentence."""
 
 
 def _fault(
     result: Result, found: Sequence[Result], label: str, unit: str | None, sure: bool
-) -> tuple[str, str | None, str] | None:  # fmt: skip
-    """What is wrong with a result: its kind, what is expected, and a sentence; None if nothing."""
-    exam, table = result.exam, result.exam.table
-    last = table.steps
-    what = "the depth over the radius" if result.ratio else "the final depth"
+) -> Fault | None:
+    """What is wrong with a result; None if nothing."""
+    table = result.exam.table
     named = result_of(label) if label else None
-    x, final = table.number("depth", result.k), table.number("depth", last)
-    if result.k != last and x != final:
-        same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
-        if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label):
-            return None
-        close = last - _NEAR_END <= result.k < last or named in ("depth", "ratio")
-        shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
-        if close and not _ANOTHER_ROW.search(label) and not (shows_last and named is None):
-            cell = table.place("depth", last)
-            text = f"{what} reads row {result.k} of the table, not {last}, its last"
-            return "odd formula", address(cell, cell[0] != result.place[0]), text
-        return None
-    if (
-        result.over_diameter
-        and result.power == 0
-        and named == "ratio"
-        and not _DIAMETER.search(label)
-    ):
-        return "odd formula", None, "the number is the depth over the diameter, not over the radius"
+    x, final = table.number("depth", result.k), table.number("depth", table.steps)
+    if result.k != table.steps and x != final:
+        return _other_row(result, found, label, named)
     if result.over_diameter:
-        return None
+        wrong = result.power == 0 and named == "ratio" and not _DIAMETER.search(label)
+        text = "the number is the depth over the diameter, not over the radius"
+        return ("odd formula", None, text) if wrong else None
     if result.ratio:
         wanted = 2 if _PERCENT.search(label) or unit in ("%", "percent") else 0
-        if named == "ratio" and result.power != wanted:
-            slip = result.power - wanted
-            return "unit", None, f"{what} is {times_too(slip)}: a unit is not converted"
+        text = f"{_what(result)} is {times_too(result.power - wanted)}: a unit is not converted"
+        return ("unit", None, text) if named == "ratio" and result.power != wanted else None
+    if named == "ratio" and not unit and _tells_ratio(result.exam):
+        return "odd formula", None, "the number is the depth, not the depth over the radius"
+    return _other_unit(result, unit) if unit and sure else None
+
+
+def _what(result: Result) -> str:
+    return "the depth over the radius" if result.ratio else "the final depth"
+
+
+def _other_row(
+    result: Result, found: Sequence[Result], label: str, named: str | None
+) -> Fault | None:
+    """The fault of a result that shows another row than the last; None if it may well do so."""
+    exam, last = result.exam, result.exam.table.steps
+    same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
+    if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label):
         return None
-    X = exam.units.get("depth", 0.0)
-    if unit and sure and exam.firm and same_dimension(unit, "m") and unit != "1":
-        stated, power = math.log10(float(to_si(unit))), X - result.power
-        if abs(stated - power) > 1e-9 and abs(stated - round(stated)) < 1e-9:
-            shown = unit_text("depth", round(power))
-            return "unit", shown, f"the label gives {what} in {unit}, but the number is in {shown}"
-    return None
+    close = last - _NEAR_END <= result.k < last or named in ("depth", "ratio")
+    shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
+    if not close or _ANOTHER_ROW.search(label) or (shows_last and named is None):
+        return None
+    cell = exam.table.place("depth", last)
+    text = f"{_what(result)} is taken from step {result.k} of the table; its last step is {last}"
+    return "odd formula", address(cell, cell[0] != result.place[0]), text
+
+
+def _other_unit(result: Result, unit: str) -> Fault | None:
+    """The fault of a depth in another unit than its label states; None if it is in that one."""
+    if not result.exam.firm or not same_dimension(unit, "m") or unit == "1":
+        return None
+    stated = math.log10(float(to_si(unit)))
+    power = result.exam.units.get("depth", 0.0) - result.power
+    if abs(stated - power) <= 1e-9 or abs(stated - round(stated)) >= 1e-9:
+        return None
+    shown = unit_text("depth", round(power))
+    text = f"the label gives {_what(result)} in {unit}, but the number is in {shown}"
+    return "unit", shown, text
+
+
+def _tells_ratio(exam: Examination) -> bool:
+    """Whether X/R is more than X in another unit: the radius is no power of ten."""
+    radius = exam.inputs.get("radius")
+    if radius is None or not 0 < radius.si < math.inf:
+        return False
+    power = math.log10(radius.si)
+    return abs(power - round(power)) > 1e-6
 
 
 # ---- the report's printed final depth and X/R
@@ -212,19 +262,25 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
             beta, number = number_in(label)
             if len(exams) > 1 and beta != "beta":
                 continue
-            if beta == "beta" and not near(number, float(case[-1])):
-                continue
-            kind = result_of(label)
-            value = Fraction(float(evaluator.values[place]))  # type: ignore[arg-type]
-            if not value:
-                continue
-            if kind == "ratio":
-                yield _judged(f"ratio-{case}", place, value, True)
-            elif kind == "depth" and unit and same_dimension(unit, "m"):
-                yield _judged(f"depth-{case}", place, value * to_si(unit), True)
-            elif kind == "depth" and exam.final_depth and value > 0:
-                power = 3 * round(math.log10(exam.final_depth / float(value)) / 3)
-                yield _judged(f"depth-{case}", place, value * Fraction(10) ** power, True)
+            if beta != "beta" or near(number, float(case[-1])):
+                yield from _typed_result(exam, case, place, label, unit)
+
+
+def _typed_result(
+    exam: Examination, case: str, place: Position, label: str, unit: str | None
+) -> Iterator[PrintedCell]:
+    """A typed number as a final depth or X/R of a case, if it may be one."""
+    kind, number = result_of(label), exam.table.evaluator.values[place]
+    if type(number) is not float or not number:
+        return
+    value = Fraction(number)
+    if kind == "ratio":
+        yield _judged(f"ratio-{case}", place, value, True)
+    elif kind == "depth" and unit and same_dimension(unit, "m"):
+        yield _judged(f"depth-{case}", place, value * to_si(unit), True)
+    elif kind == "depth" and exam.final_depth and value > 0:
+        power = 3 * round(math.log10(exam.final_depth / number) / 3)
+        yield _judged(f"depth-{case}", place, value * Fraction(10) ** power, True)
 
 
 def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]]:

@@ -8,6 +8,7 @@ import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
+from reference.units import same_dimension
 from replication.check.fit import Fit
 from replication.check.labels import idle_numbers, label_of
 from replication.check.responses import CLOSE, FAMILIES, Item, Source, is_plain, sources, unit_power
@@ -203,10 +204,12 @@ class _Roles:
                     typed = [other for other in typed if other not in own]
         if len(typed) == 1 and made and not self.roles(typed[0]) & members:
             typed = [*typed, *self.without_effect(made)]
+        stresses = [source for source in typed if self.is_stress(source)]
         for source in sorted(typed, key=lambda s: s.value):
             label = self.roles(source) & members
             others = {r for s in typed if s is not source for r in self.roles(s)}
             small = source.value < _MOST_BETA and "beta" not in cells.keys() | others
+            small = small and stresses != [source]  # a beta has no unit
             unsaid = "resistance" if len(typed) == 1 else "beta" if small else "flow_stress"
             self.put(cells, next(iter(label)) if len(label) == 1 else unsaid, source)
         known = cells.keys() | derived.keys()
@@ -221,6 +224,14 @@ class _Roles:
                 or (named and (product or "resistance" not in cells))
             ):
                 self.put(derived, "resistance", source)
+
+    def is_stress(self, source: Source) -> bool:
+        """Whether the label of a cell has a unit of stress beside its words.
+
+        A short word alone may be a unit by chance.
+        """
+        label, unit = self.inputs.label(source)
+        return bool(label) and unit is not None and same_dimension(unit, "Pa")
 
     def without_effect(self, made: Sequence[Source]) -> list[Source]:
         """The typed cell that a formula for the resistance reads without any effect.

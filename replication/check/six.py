@@ -158,6 +158,16 @@ def first_speed(table: Table) -> Position | None:
     return None
 
 
+def origin(table: Table, place: Position) -> Position:
+    """The cell in which the first velocity is written, where another one only repeats it."""
+    zero = table.number("velocity_initial", 0)
+    if zero is None:
+        return place
+    impact = table.place("velocity_initial", 0)
+    repeated = [area.corner for area in table.evaluator.areas(place)] == [impact]
+    return impact if repeated and table.evaluator.values.get(place) == zero else place
+
+
 def impact_velocity(table: Table) -> float:
     """The velocity V at which the table starts; NaN if it shows none."""
     place = first_speed(table)

@@ -13,7 +13,7 @@ _FEW = 200
 
 
 def stale(evaluator: Evaluator) -> Iterator[Position]:
-    """The formulas whose stored value follows neither from what they read now nor from what is stored.
+    """The formulas whose stored value is not theirs by what they read now, nor by what is stored.
 
     A difference of nearly equal numbers has few digits of its own: a stored value is accepted if it
     lies within what the formula gives when the numbers that it reads change in their fifteenth
@@ -85,9 +85,10 @@ def _may_be(evaluator: Evaluator, place: Position, stored: Scalar) -> bool:
     for changed in _varied(evaluator, place, {}):
         if changed == stored:
             return True
-        if type(changed) is float and type(stored) is float:
-            if abs(changed - stored) <= 2 * _DIGITS * abs(stored):
-                return True
+        if type(changed) is not float or type(stored) is not float:
+            continue
+        if abs(changed - stored) <= 2 * _DIGITS * abs(stored):
+            return True
     return False
 
 

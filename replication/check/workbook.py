@@ -11,7 +11,7 @@ from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.judge import examine
 from replication.check.labels import cell_names, label_of
 from replication.check.model import AnotherModelError
-from replication.check.repair import Slipped, mended, slipped
+from replication.check.repair import Slipped, Still, mended, moving, slipped, standing
 from replication.check.results import PrintedCell, judge_results, printed_cells
 from replication.check.stale import stale
 from replication.check.table import LEAST, Line, Table, address, runs, tables
@@ -31,6 +31,8 @@ from spreadsheets.foreign import Book, Position, read
 
 _MOST_TABLES = 40
 """So many tables of one workbook are judged."""
+_FEW_READ = 100
+"""So many cells behind an error are looked at for a text."""
 _FEW = 3
 """Where all formulas store 0, so few wrong values are stale; more were never calculated."""
 
@@ -91,6 +93,9 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
         evaluator, texts = _evaluated(_without_values(book))
     columns, cells = _mapped(given, evaluator)
     found = tables(evaluator, columns)[:_MOST_TABLES]
+    still = None
+    if not found and not given:
+        evaluator, texts, found, still = _set_moving(evaluator, texts)
     if not found:
         raise ValueError(_nothing(evaluator))
     names = cell_names(evaluator)
@@ -111,7 +116,36 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
     judge_results(exams, evaluator)
     for slip in lost:
         _tell_lost(exams, slip)
+    if still is not None:
+        _tell_still(exams, still)
     return _collected(evaluator, exams, texts, others)
+
+
+def _set_moving(
+    evaluator: Evaluator, texts: dict[Position, str]
+) -> tuple[Evaluator, dict[Position, str], list[Table], Still | None]:
+    """The workbook with a cell filled without which no row moves, its tables, and the cell."""
+    for still in standing(evaluator):
+        book = _without_values(moving(evaluator.book, still))
+        trial, again = _evaluated(book)
+        if (found := tables(trial, {})[:_MOST_TABLES]) and any(
+            still.place in table.places for table in found
+        ):
+            return trial, again, found, still
+    return evaluator, texts, [], None
+
+
+def _tell_still(exams: Sequence[Examination], still: Still) -> None:
+    """Report the cell without which no row moves."""
+    for exam in exams:
+        if still.place in exam.table.places:
+            blank = still.found is None
+            kind = "odd formula" if blank else "typed number"
+            what = "the cell is blank" if blank else "a zero is typed here"
+            text = f"{what}: no row moves; checked as if {still.formula} stood here"
+            cells, rank = (still.place,), exam.rank(still.place)
+            exam.differences.append(Difference(kind, cells, still.formula, still.found, text, rank))
+            return
 
 
 def _without_values(book: Book) -> Book:
@@ -411,7 +445,14 @@ def _nothing(evaluator: Evaluator) -> str:
 def _spoiling(evaluator: Evaluator, first: Position | None) -> set[Position]:
     """Return the typed texts that make the first formula with an error give it."""
     read = list(evaluator.precedents(first)) if first else []
-    return {p for p in read if type(evaluator.values.get(p)) is str and p not in evaluator.formulas}
+    typed = set[Position]()
+    for place in read:  # which grows by what formulas that repeat a text read
+        if type(evaluator.values.get(place)) is str:
+            if place not in evaluator.formulas:
+                typed.add(place)
+            elif len(read) < _FEW_READ:
+                read += evaluator.precedents(place)
+    return typed
 
 
 def _labelled_texts(evaluator: Evaluator) -> set[Position]:
