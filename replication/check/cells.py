@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from replication.check.examination import Difference, Examination
 from replication.check.fit import Probe
 from replication.check.roles import Inputs
-from replication.check.six import EXACT, start_of_row
+from replication.check.six import EXACT, REPORT, start_of_row
 from replication.check.table import LEAST, Line, Table, behind, runs
 from replication.check.words import title
 from replication.reading import quoted
@@ -287,6 +287,8 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
             continue
         if role is None and line.place(first)[1:] > place[1:]:
             continue
+        if role == "deceleration" and _is_right_force(exam, k):
+            continue
         is_last = k == table.steps and role in ("deceleration", "velocity_final")
         end = table.lines.get("velocity_final")
         if role == "deceleration" and end is not None and end.computed:
@@ -301,6 +303,21 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
     for group in groups:
         kind, text, expected, found = odd[group[0]]
         exam.add(str(kind), group, expected, str(text), found)  # type: ignore[arg-type]
+
+
+def _is_right_force(exam: Examination, k: int) -> bool:
+    """Whether a row has the deceleration of its inputs, where its column is accused as a whole."""
+    table, units, six = exam.table, exam.units, exam.intended
+    if exam.fitted.ways.get("deceleration") is REPORT["deceleration"] or six is None:
+        return False
+    start = start_of_row(table)
+    x, u = table.number("depth", k), table.number(start[0], k + start[1])
+    a = table.number("deceleration", k)
+    if x is None or u is None or a is None:
+        return False
+    X, W, A = (10.0 ** units.get(role, 0.0) for role in ("depth", start[0], "deceleration"))
+    wanted = six.deceleration(x * X, u * W)
+    return math.isclose(exam.fitted.sign * a * A, wanted, rel_tol=EXACT)
 
 
 Verdict = tuple[str, str, object, object]

@@ -35,8 +35,24 @@ def first_rows(exam: Examination, inputs: Inputs, idle: Sequence[Position]) -> N
         _first_depth(exam, inputs)
 
 
+def _half_step(exam: Examination) -> float | None:
+    """The first depth: V times half a step.
+
+    If the depths are accused of their step already, it is the step of the velocities.
+    """
+    table, six, units = exam.table, exam.fitted.six, exam.units
+    wanted = predicted(exam, "depth", 1)
+    accused = {cell for d in exam.differences for cell in d.cells}
+    later = table.place("depth", 2) if 2 in table.rows else None
+    if wanted is None or later not in accused or "deceleration" not in table.lines:
+        return wanted
+    X, A = units.get("depth", 0.0), units.get("deceleration", 0.0)
+    step = abs(six.e) * 10.0 ** (2 * units.get(start_of_row(table)[0], 0.0) - A - X)
+    return wanted * step / six.c if math.isfinite(step) and step else wanted
+
+
 def _first_depth(exam: Examination, inputs: Inputs) -> None:
-    table, wanted = exam.table, predicted(exam, "depth", 1)
+    table, wanted = exam.table, _half_step(exam)
     if wanted is None or not wanted or 1 not in table.rows:
         return
     line, place = table.lines["depth"], table.place("depth", 1)
@@ -47,8 +63,6 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
         return
     digits = 0.0 if line.computed else exam.fitted.slack + line.rounding(value) / abs(wanted)
     slack, ratio = 1e-9 + 2 * digits, value / wanted
-    if _is_of_step(exam, value, slack):
-        return
     if abs(ratio - 1) <= slack:
         if is_formula:
             _first_response(exam, place, inputs)
@@ -70,21 +84,6 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
     else:
         text = f"{formula_at(exam, place)} does not give V times half a step"
         exam.add("odd formula", [place], wanted, text)
-
-
-def _is_of_step(exam: Examination, value: float, slack: float) -> bool:
-    """Whether a first depth is V times half the step of the cell, where later depths are accused.
-
-    These have another step.
-    """
-    table, step = exam.table, exam.inputs.get("step")
-    accused = {cell for d in exam.differences for cell in d.cells}
-    start = start_of_row(table)
-    v = table.number(start[0], 1 + start[1])
-    if step is None or v is None or table.place("depth", 2) not in accused:
-        return False
-    c = step.si * 10.0 ** (exam.units.get(start[0], 0.0) - exam.units.get("depth", 0.0))
-    return bool(v) and abs(value / (c * v / 2) - 1) <= slack
 
 
 def _no_number(exam: Examination, place: Position, what: str, wanted: float) -> None:

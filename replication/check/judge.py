@@ -81,9 +81,9 @@ def examine(
     _other_ways(exam)
     units_beside(exam, inputs)
     compare_with_report(exam, inputs)
+    intend(exam)
     first_rows(exam, inputs, idle)
     odd_cells(exam, inputs)
-    intend(exam)
     judge_stop(exam, idle)
     exam.differences.sort(key=lambda d: d.rank)
     return exam
@@ -133,7 +133,11 @@ def _other_ways(exam: Examination) -> None:
         column = role if role in table.lines else fitted.brakes
         if role == "velocity_final" and role not in table.lines:
             column = start_of_row(table)[0]
+        line = table.lines[column]
         cells = exam.cells(column, 2 if role == "depth" else 1)
+        if line.usual is not None:  # a first row may have the right formula
+            formulas = table.evaluator.formulas
+            cells = [cell for cell in cells if formulas.get(cell) is line.usual] or cells
         if role == "deceleration":
             cells = _first_wrong(exam) or cells
         if way is not None:
