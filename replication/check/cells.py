@@ -397,10 +397,13 @@ def _other_number(odd: _Cell, formula: str) -> Verdict:
     return "odd formula", text, odd.expected, odd.value
 
 
-def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool]) -> Verdict | None:
-    """The verdict on a formula that responds to the row, or to the inputs, as its column or not."""
-    state, given = alike
-    if same and state and not given:
+def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool, bool]) -> Verdict | None:
+    """The verdict on a formula that responds to the row, or to the inputs, as its column or not.
+
+    A number in the formula of the others, where this one reads a cell, is theirs.
+    """
+    state, given, reads_more = alike
+    if same and state and not given and not reads_more:
         text = f"{formula} has a number where its column reads a cell: {odd.instead[:200]}"
         return "typed constant", f"{text}{RIGHT_HERE}", None, None
     if odd.role == "time":  # which people count up in several ways
@@ -503,8 +506,11 @@ def _spread(exam: Examination, line: Line, expected: float) -> float:
 
 def _alike(
     exam: Examination, inputs: Inputs, place: Position, shape: Shape, usual: Shape, k: int
-) -> tuple[bool, bool]:
-    """Whether a formula responds like its column's to the state of its row, and to the inputs."""
+) -> tuple[bool, bool, bool]:
+    """Whether a formula responds like its column's to the state of its row, and to the inputs.
+
+    Then whether it responds to all inputs to which that one does, and to more.
+    """
     table, evaluator = exam.table, exam.table.evaluator
     probe = Probe(table, k)
     state: dict[Position, float | str | bool | None] = {}
@@ -534,5 +540,15 @@ def _alike(
             return math.isclose(own, want, rel_tol=EXACT)
         return type(own) is type(want)
 
+    def read(formula: Shape) -> set[Position]:
+        first = evaluator.value(place, {}, {}, wide, formula)
+        return {
+            cell
+            for cell, nudged in given.items()
+            if evaluator.value(place, {cell: nudged}, {}, wide, formula) != first
+        }
+
     alike = same(state, {})
-    return alike, same({**state, **given}, numbers) or not alike
+    if not alike or same({**state, **given}, numbers):
+        return alike, True, False
+    return True, False, read(shape) > read(usual)

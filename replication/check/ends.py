@@ -140,9 +140,10 @@ def _first_velocity(exam: Examination, inputs: Inputs, idle: Sequence[Position])
     if place in table.evaluator.formulas:
         return
     known = _velocity_cell(inputs, idle, first, values)
-    if known is not None and known.cell is not None and known.cell != place:
+    if known is not None and known.cell != place and (known.cell or known.name):
         same = RIGHT_HERE if near(first, known.value) else ""
-        text = f"the first velocity is typed, where {address(known.cell, True)} should be read"
+        where = address(known.cell, True) if known.cell else known.name
+        text = f"the first velocity is typed, where {where} should be read"
         exam.add("typed number", [place], known.value, text + same)
 
 
@@ -248,8 +249,6 @@ def _stop_velocity(
     unit of the column or in SI units; in any unit if no unit of a velocity is stated.
     """
     last, before = speeds[max(speeds)], speeds.get(max(speeds) - 1, math.inf)
-    if last < 1.0 <= before and exam.firm_speed:
-        return 1.0
     labelled = exam.inputs.get("stop_velocity")
     if labelled is not None and exam.firm_speed:
         return labelled.si

@@ -189,7 +189,14 @@ def _probed(table: Table, probe: Probe) -> Fit:
     six = Six(math.nan, math.nan, math.nan, c, e, impact_velocity(table))
     grows = ("depth", -1) in probe.answers(probe.state["depth", 0])
     fitted = Fit(
-        six, time_step(table), sign, ways, end[0], probe=probe, time_adds=adds, depth_adds=grows
+        six,
+        _time_of(table, probe, adds),
+        sign,
+        ways,
+        end[0],
+        probe=probe,
+        time_adds=adds,
+        depth_adds=grows,
     )
     if line is not None and not line.computed:
         return replace(fitted, brakes="deceleration")
@@ -207,6 +214,18 @@ def _probed(table: Table, probe: Probe) -> Fit:
         fitted, six=Six(*numbers, *six[3:]), ways={**ways, "deceleration": way}, force=force,
         centered=centered,
     )  # fmt: skip
+
+
+def _time_of(table: Table, probe: Probe, adds: bool) -> float | None:
+    """By how much the time grows: by the formula itself, if it agrees with the numbers.
+
+    It loses no digits where the times are large.
+    """
+    step = time_step(table)
+    if adds and step is not None:
+        alone = probe.value(probe.state["time", 0], {("time", -1): 1e-200}, {}, {})
+        return alone if math.isclose(alone, step, rel_tol=1e-6) else step
+    return step
 
 
 def _is_negative(table: Table, probe: Probe) -> bool:
@@ -578,6 +597,8 @@ def is_part(fitted: Fit, place: Position, right: RightForce) -> bool:
     if len(terms) != len(rows) * len(columns) or columns not in ([0], [1], [2], [1, 2], [0, 1]):
         return False
     i, j = rows[-1], columns[-1]
+    if (rows, columns) == ([0], [1]) and _lacks_square(fitted, grid[0][1] / small, D):
+        return False
     if columns == [1, 2] and not math.isclose(grid[i][1] / grid[i][2], -D / small, rel_tol=1e-6):
         return False
     if len(rows) > 1:
@@ -606,6 +627,14 @@ def _is_right_constant(
         return True
     slip = math.log10(constant / known / right.off)
     return abs(slip - round(slip)) > 1e-8
+
+
+def _lacks_square(fitted: Fit, slope: float, D: float) -> bool:
+    """Whether a line that is proportional to the depth is pi D x, as the area of a wrong force."""
+    if fitted.ways.get("deceleration") is not VARIANTS["area without x²"]:
+        return False
+    power = math.log10(abs(slope) / (math.pi * D))
+    return abs(power - round(power)) < 1e-8
 
 
 def is_bounded(fitted: Fit) -> bool:

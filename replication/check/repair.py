@@ -7,8 +7,8 @@ is no column of the scheme any more. The workbook is then judged as it was meant
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from spreadsheets.evaluate import Evaluator, Reference, Shape, column_letters, written
-from spreadsheets.foreign import Book, Position
+from spreadsheets.evaluate import Evaluator, Reference, Scalar, Shape, column_letters, written
+from spreadsheets.foreign import Book, Cell, Position
 
 _LEAST = 5
 """A formula must be filled into so many cells."""
@@ -93,6 +93,51 @@ def _key(ref: Reference) -> str:
     row = f"{ref.rows[0]}" if ref.fixed[0] else f"[{ref.rows[0]}]"
     column = f"{ref.columns[0]}" if ref.fixed[1] else f"[{ref.columns[0]}]"
     return f"\x02{row},{column};{row},{column}\x03"
+
+
+_MOST_TRIED = 20
+"""So many cells are tried where no table moves."""
+
+
+@dataclass(frozen=True)
+class Still:
+    """A cell of a column that is blank or zero, so that nothing moves, and the formula meant."""
+
+    place: Position
+    formula: str
+    found: Scalar
+
+
+def standing(evaluator: Evaluator) -> Iterator[Still]:
+    """The cells that may keep all rows from moving: a velocity that is blank, or a typed zero.
+
+    Such a cell stands in a column between a number and a formula, and a formula reads it. It may
+    have been meant to repeat the cell before it.
+    """
+    values, formulas = evaluator.values, evaluator.formulas
+    read = {a.corner for p in formulas for a in evaluator.areas(p) if a.cells == 1}
+    tried = 0
+    for place in sorted(read - formulas.keys()):
+        value = values.get(place)
+        if value is not None and value != 0:
+            continue
+        sheet, row, column = place
+        for down, right in ((1, 0), (0, 1)):
+            before = (sheet, row - down, column - right)
+            after = (sheet, row + down, column + right)
+            if type(values.get(before)) is float and values[before] and after in formulas:
+                tried += 1
+                yield Still(place, f"={column_letters(before[2])}{before[1]}", value)
+        if tried >= _MOST_TRIED:
+            return
+
+
+def moving(book: Book, still: Still) -> Book:
+    """The book with the formula that was meant in a cell."""
+    sheet, row, column = still.place
+    cells = dict(book.sheets[sheet])
+    cells[row, column] = Cell(still.formula, None)
+    return replace(book, sheets={**book.sheets, sheet: cells})
 
 
 def mended(book: Book, found: list[Slipped]) -> Book:

@@ -150,50 +150,64 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
             wrong.add(result.place)
 
 
+Fault = tuple[str, str | None, str]
+"""What is wrong with a result: its kind, what is expected, and a sentence."""
+
+
 def _fault(
     result: Result, found: Sequence[Result], label: str, unit: str | None, sure: bool
-) -> tuple[str, str | None, str] | None:  # fmt: skip
-    """What is wrong with a result: its kind, what is expected, and a sentence; None if nothing."""
-    exam, table = result.exam, result.exam.table
-    last = table.steps
-    what = "the depth over the radius" if result.ratio else "the final depth"
+) -> Fault | None:
+    """What is wrong with a result; None if nothing."""
+    table = result.exam.table
     named = result_of(label) if label else None
-    x, final = table.number("depth", result.k), table.number("depth", last)
-    if result.k != last and x != final:
-        same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
-        if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label):
-            return None
-        close = last - _NEAR_END <= result.k < last or named in ("depth", "ratio")
-        shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
-        if close and not _ANOTHER_ROW.search(label) and not (shows_last and named is None):
-            cell = table.place("depth", last)
-            text = f"{what} reads row {result.k} of the table, not {last}, its last"
-            return "odd formula", address(cell, cell[0] != result.place[0]), text
-        return None
-    if (
-        result.over_diameter
-        and result.power == 0
-        and named == "ratio"
-        and not _DIAMETER.search(label)
-    ):
-        return "odd formula", None, "the number is the depth over the diameter, not over the radius"
+    x, final = table.number("depth", result.k), table.number("depth", table.steps)
+    if result.k != table.steps and x != final:
+        return _other_row(result, found, label, named)
     if result.over_diameter:
-        return None
-    if named == "ratio" and not result.ratio and not unit and _tells_ratio(exam):
-        return "odd formula", None, "the number is the depth, not the depth over the radius"
+        wrong = result.power == 0 and named == "ratio" and not _DIAMETER.search(label)
+        text = "the number is the depth over the diameter, not over the radius"
+        return ("odd formula", None, text) if wrong else None
     if result.ratio:
         wanted = 2 if _PERCENT.search(label) or unit in ("%", "percent") else 0
-        if named == "ratio" and result.power != wanted:
-            slip = result.power - wanted
-            return "unit", None, f"{what} is {times_too(slip)}: a unit is not converted"
+        text = f"{_what(result)} is {times_too(result.power - wanted)}: a unit is not converted"
+        return ("unit", None, text) if named == "ratio" and result.power != wanted else None
+    if named == "ratio" and not unit and _tells_ratio(result.exam):
+        return "odd formula", None, "the number is the depth, not the depth over the radius"
+    return _other_unit(result, unit) if unit and sure else None
+
+
+def _what(result: Result) -> str:
+    return "the depth over the radius" if result.ratio else "the final depth"
+
+
+def _other_row(
+    result: Result, found: Sequence[Result], label: str, named: str | None
+) -> Fault | None:
+    """The fault of a result that shows another row than the last; None if it may well do so."""
+    exam, last = result.exam, result.exam.table.steps
+    same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
+    if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label):
         return None
-    X = exam.units.get("depth", 0.0)
-    if unit and sure and exam.firm and same_dimension(unit, "m") and unit != "1":
-        stated, power = math.log10(float(to_si(unit))), X - result.power
-        if abs(stated - power) > 1e-9 and abs(stated - round(stated)) < 1e-9:
-            shown = unit_text("depth", round(power))
-            return "unit", shown, f"the label gives {what} in {unit}, but the number is in {shown}"
-    return None
+    close = last - _NEAR_END <= result.k < last or named in ("depth", "ratio")
+    shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
+    if not close or _ANOTHER_ROW.search(label) or (shows_last and named is None):
+        return None
+    cell = exam.table.place("depth", last)
+    text = f"{_what(result)} is taken from step {result.k} of the table; its last step is {last}"
+    return "odd formula", address(cell, cell[0] != result.place[0]), text
+
+
+def _other_unit(result: Result, unit: str) -> Fault | None:
+    """The fault of a depth in another unit than its label states; None if it is in that one."""
+    if not result.exam.firm or not same_dimension(unit, "m") or unit == "1":
+        return None
+    stated = math.log10(float(to_si(unit)))
+    power = result.exam.units.get("depth", 0.0) - result.power
+    if abs(stated - power) <= 1e-9 or abs(stated - round(stated)) >= 1e-9:
+        return None
+    shown = unit_text("depth", round(power))
+    text = f"the label gives {_what(result)} in {unit}, but the number is in {shown}"
+    return "unit", shown, text
 
 
 def _tells_ratio(exam: Examination) -> bool:

@@ -11,7 +11,7 @@ from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.judge import examine
 from replication.check.labels import cell_names, label_of
 from replication.check.model import AnotherModelError
-from replication.check.repair import Slipped, mended, slipped
+from replication.check.repair import Slipped, Still, mended, moving, slipped, standing
 from replication.check.results import PrintedCell, judge_results, printed_cells
 from replication.check.stale import stale
 from replication.check.table import LEAST, Line, Table, address, runs, tables
@@ -93,6 +93,9 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
         evaluator, texts = _evaluated(_without_values(book))
     columns, cells = _mapped(given, evaluator)
     found = tables(evaluator, columns)[:_MOST_TABLES]
+    still = None
+    if not found and not given:
+        evaluator, texts, found, still = _set_moving(evaluator, texts)
     if not found:
         raise ValueError(_nothing(evaluator))
     names = cell_names(evaluator)
@@ -113,7 +116,36 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
     judge_results(exams, evaluator)
     for slip in lost:
         _tell_lost(exams, slip)
+    if still is not None:
+        _tell_still(exams, still)
     return _collected(evaluator, exams, texts, others)
+
+
+def _set_moving(
+    evaluator: Evaluator, texts: dict[Position, str]
+) -> tuple[Evaluator, dict[Position, str], list[Table], Still | None]:
+    """The workbook with a cell filled without which no row moves, its tables, and the cell."""
+    for still in standing(evaluator):
+        book = _without_values(moving(evaluator.book, still))
+        trial, again = _evaluated(book)
+        if (found := tables(trial, {})[:_MOST_TABLES]) and any(
+            still.place in table.places for table in found
+        ):
+            return trial, again, found, still
+    return evaluator, texts, [], None
+
+
+def _tell_still(exams: Sequence[Examination], still: Still) -> None:
+    """Report the cell without which no row moves."""
+    for exam in exams:
+        if still.place in exam.table.places:
+            blank = still.found is None
+            kind = "odd formula" if blank else "typed number"
+            what = "the cell is blank" if blank else "a zero is typed here"
+            text = f"{what}: no row moves; checked as if {still.formula} stood here"
+            cells, rank = (still.place,), exam.rank(still.place)
+            exam.differences.append(Difference(kind, cells, still.formula, still.found, text, rank))
+            return
 
 
 def _without_values(book: Book) -> Book:
@@ -395,6 +427,8 @@ def _nothing(evaluator: Evaluator) -> str:
     instead = sorted(_labelled_texts(evaluator) | _spoiling(evaluator, first))
     for place in instead:
         nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
+    for place in _labelled_blanks(evaluator):
+        nothing += f"; {address(place, True)} is blank, though formulas read it"
     for place in sorted(evaluator.unknown)[:1]:
         nothing += f"; {address(place, True)} is not computed: {evaluator.reasons[place]}"
     if first:
@@ -435,6 +469,21 @@ def _labelled_texts(evaluator: Evaluator) -> set[Position]:
             if label and label != text and input_roles(label, unit):
                 found.add(place)
     return found
+
+
+def _labelled_blanks(evaluator: Evaluator) -> list[Position]:
+    """Return the blank cells that formulas read and whose labels name an input."""
+    read = {
+        (a.sheet, a.top, a.left) for p in evaluator.formulas for a in evaluator.areas(p)
+        if a.cells == 1
+    }  # fmt: skip
+    blank = []
+    for place in sorted(read - evaluator.formulas.keys()):
+        if evaluator.values.get(place) is None:
+            label, unit, _ = label_of(place, evaluator)
+            if label and input_roles(label, unit):
+                blank.append(place)
+    return blank[:_FEW]
 
 
 def _without_numbers(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Difference]:
