@@ -437,7 +437,7 @@ def _nothing(evaluator: Evaluator) -> str:
     if evaluator.unknown:
         return f"{nothing}: correct it, or save the workbook with a program that computes it"
     such = "--map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
-    return f"{nothing}: say where they are, such as {such}"
+    return f"{nothing}: if there is one, say where, as with {such}"
 
 
 def _spoiling(evaluator: Evaluator, first: Position | None) -> set[Position]:
@@ -534,7 +534,7 @@ def _uncalculated(evaluator: Evaluator) -> Iterator[Difference]:
     reasons: dict[str, list[Position]] = {}
     for place in evaluator.formulas:
         if evaluator.book[place].value is None:
-            reasons.setdefault("no value is stored; they are computed here", []).append(place)
+            reasons.setdefault("no value is stored to compare with; they are computed here", []).append(place)
     for place, why in evaluator.reasons.items():
         stored = evaluator.book[place].value is not None
         taken = "their stored values are taken" if stored else "nor is a value stored"
