@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from replication.check.examination import Difference, Examination
 from replication.check.fit import Probe
 from replication.check.roles import Inputs
-from replication.check.six import EXACT, start_of_row
+from replication.check.six import EXACT, REPORT, start_of_row
 from replication.check.table import LEAST, Line, Table, behind, runs
 from replication.check.words import title
 from replication.reading import quoted
@@ -287,6 +287,8 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
             continue
         if role is None and line.place(first)[1:] > place[1:]:
             continue
+        if role == "deceleration" and _is_right_force(exam, k):
+            continue
         is_last = k == table.steps and role in ("deceleration", "velocity_final")
         end = table.lines.get("velocity_final")
         if role == "deceleration" and end is not None and end.computed:
@@ -301,6 +303,21 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
     for group in groups:
         kind, text, expected, found = odd[group[0]]
         exam.add(str(kind), group, expected, str(text), found)  # type: ignore[arg-type]
+
+
+def _is_right_force(exam: Examination, k: int) -> bool:
+    """Whether a row has the deceleration of its inputs, where its column is accused as a whole."""
+    table, units, six = exam.table, exam.units, exam.intended
+    if exam.fitted.ways.get("deceleration") is REPORT["deceleration"] or six is None:
+        return False
+    start = start_of_row(table)
+    x, u = table.number("depth", k), table.number(start[0], k + start[1])
+    a = table.number("deceleration", k)
+    if x is None or u is None or a is None:
+        return False
+    X, W, A = (10.0 ** units.get(role, 0.0) for role in ("depth", start[0], "deceleration"))
+    wanted = six.deceleration(x * X, u * W)
+    return math.isclose(exam.fitted.sign * a * A, wanted, rel_tol=EXACT)
 
 
 Verdict = tuple[str, str, object, object]
@@ -380,10 +397,13 @@ def _other_number(odd: _Cell, formula: str) -> Verdict:
     return "odd formula", text, odd.expected, odd.value
 
 
-def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool]) -> Verdict | None:
-    """The verdict on a formula that responds to the row, or to the inputs, as its column or not."""
-    state, given = alike
-    if same and state and not given:
+def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool, bool]) -> Verdict | None:
+    """The verdict on a formula that responds to the row, or to the inputs, as its column or not.
+
+    A number in the formula of the others, where this one reads a cell, is theirs.
+    """
+    state, given, reads_more = alike
+    if same and state and not given and not reads_more:
         text = f"{formula} has a number where its column reads a cell: {odd.instead[:200]}"
         return "typed constant", f"{text}{RIGHT_HERE}", None, None
     if odd.role == "time":  # which people count up in several ways
@@ -485,8 +505,11 @@ def _spread(exam: Examination, line: Line, expected: float) -> float:
 
 def _alike(
     exam: Examination, inputs: Inputs, place: Position, shape: Shape, usual: Shape, k: int
-) -> tuple[bool, bool]:
-    """Whether a formula responds like its column's to the state of its row, and to the inputs."""
+) -> tuple[bool, bool, bool]:
+    """Whether a formula responds like its column's to the state of its row, and to the inputs.
+
+    Then whether it responds to all inputs to which that one does, and to more.
+    """
     table, evaluator = exam.table, exam.table.evaluator
     probe = Probe(table, k)
     state: dict[Position, float | str | bool | None] = {}
@@ -516,5 +539,15 @@ def _alike(
             return math.isclose(own, want, rel_tol=EXACT)
         return type(own) is type(want)
 
+    def read(formula: Shape) -> set[Position]:
+        first = evaluator.value(place, {}, {}, wide, formula)
+        return {
+            cell
+            for cell, nudged in given.items()
+            if evaluator.value(place, {cell: nudged}, {}, wide, formula) != first
+        }
+
     alike = same(state, {})
-    return alike, same({**state, **given}, numbers) or not alike
+    if not alike or same({**state, **given}, numbers):
+        return alike, True, False
+    return True, False, read(shape) > read(usual)

@@ -13,7 +13,7 @@ from spreadsheets.evaluate import Scalar
 from spreadsheets.foreign import Position
 
 _TESTED_BY = {
-    "step": ("c = dt", "e = dt", "t = dt", "c = e"), "target": ("G",), "strength": ("H",),
+    "step": ("c = dt", "e = dt", "t = dt", "c = e", "t = c"), "target": ("G",), "strength": ("H",),
     "size": ("D", "G", "H", "mass"), "inertia": ("G", "H"), "speed": ("V",),
 }  # fmt: skip
 """The equations that a typed number breaks if it is not that of the cell."""
@@ -50,6 +50,34 @@ def typed_constants(
                 broken.pop(name, None)
 
 
+def typed_stops(exam: Examination, inputs: Inputs) -> None:
+    """Report a stop velocity that is typed into formulas, though a cell that nothing reads has it.
+
+    It is a number that ends the rows: with a larger one, just above a velocity of the row, the
+    formula gives no number.
+    """
+    probe, stop = exam.fitted.probe, inputs.cells.get("stop_velocity")
+    if probe is None or stop is None or inputs.how.get("stop_velocity") != "unread":
+        return
+    where = address(stop.cell, stop.cell[0] != exam.table.sheet) if stop.cell else stop.name
+    speeds = [v for (role, _), v in probe.base.items() if role.startswith("velocity") and v > 0]
+    for (role, offset), place in probe.state.items():
+        shape = exam.table.evaluator.formulas.get(place)
+        if offset or role == "time" or shape is None:
+            continue
+        for index, value in enumerate(shape.literals):
+            key = (*place, index)
+            if value > 0 and any(
+                math.isfinite(probe.value(place, {}, {}, {key: 0.99 * v}))
+                and math.isnan(probe.value(place, {}, {}, {key: 1.01 * v}))
+                for v in speeds
+            ):
+                cells = _cells_with(exam, place)
+                text = f"{title('stop_velocity')} is typed as {value:.10g}, where {where} should "
+                exam.add("typed constant", cells, where, f"{text}be read")
+                break
+
+
 def _cells_with(exam: Examination, place: Position) -> list[Position]:
     """All cells of a column that have the formula of a cell; or the one cell beside the table."""
     table, formulas = exam.table, exam.table.evaluator.formulas
@@ -75,7 +103,8 @@ def _cell_for(
         if known is None or (known.cell is None and not known.name):
             continue
         alike = _digits_alike(source.value, known.value)
-        single = family in ("target", "step", "speed")
+        sole = role == "resistance" and _is_sole(source, inputs)
+        single = sole or family in ("target", "step", "speed")
         if inputs.how.get(role) == "unread":
             if alike or single:
                 return role, known.place or known.name
@@ -91,6 +120,11 @@ def _cell_for(
             if wanted := [role for role in FAMILIES[family] if role in roles or not roles]:
                 return wanted[0], place
     return None
+
+
+def _is_sole(source: Source, inputs: Inputs) -> bool:
+    """Whether nothing else that the rows rest on responds as a typed number does."""
+    return all(other is source or other.family != source.family for other in inputs.sources)
 
 
 def _digits_alike(a: float, b: float) -> bool:

@@ -14,7 +14,7 @@ from replication.check.examination import NO_FAULT, Examination, near
 from replication.check.fit import is_bounded
 from replication.check.responses import Source, is_plain
 from replication.check.roles import Inputs
-from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run
+from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run, start_of_row
 from replication.check.table import address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import input_roles, times_too, title
@@ -35,8 +35,24 @@ def first_rows(exam: Examination, inputs: Inputs, idle: Sequence[Position]) -> N
         _first_depth(exam, inputs)
 
 
+def _half_step(exam: Examination) -> float | None:
+    """The first depth: V times half a step.
+
+    If the depths are accused of their step already, it is the step of the velocities.
+    """
+    table, six, units = exam.table, exam.fitted.six, exam.units
+    wanted = predicted(exam, "depth", 1)
+    accused = {cell for d in exam.differences for cell in d.cells}
+    later = table.place("depth", 2) if 2 in table.rows else None
+    if wanted is None or later not in accused or "deceleration" not in table.lines:
+        return wanted
+    X, A = units.get("depth", 0.0), units.get("deceleration", 0.0)
+    step = abs(six.e) * 10.0 ** (2 * units.get(start_of_row(table)[0], 0.0) - A - X)
+    return wanted * step / six.c if math.isfinite(step) and step else wanted
+
+
 def _first_depth(exam: Examination, inputs: Inputs) -> None:
-    table, wanted = exam.table, predicted(exam, "depth", 1)
+    table, wanted = exam.table, _half_step(exam)
     if wanted is None or not wanted or 1 not in table.rows:
         return
     line, place = table.lines["depth"], table.place("depth", 1)
@@ -124,9 +140,10 @@ def _first_velocity(exam: Examination, inputs: Inputs, idle: Sequence[Position])
     if place in table.evaluator.formulas:
         return
     known = _velocity_cell(inputs, idle, first, values)
-    if known is not None and known.cell is not None and known.cell != place:
+    if known is not None and known.cell != place and (known.cell or known.name):
         same = RIGHT_HERE if near(first, known.value) else ""
-        text = f"the first velocity is typed, where {address(known.cell, True)} should be read"
+        where = address(known.cell, True) if known.cell else known.name
+        text = f"the first velocity is typed, where {where} should be read"
         exam.add("typed number", [place], known.value, text + same)
 
 
@@ -232,8 +249,6 @@ def _stop_velocity(
     unit of the column or in SI units; in any unit if no unit of a velocity is stated.
     """
     last, before = speeds[max(speeds)], speeds.get(max(speeds) - 1, math.inf)
-    if last < 1.0 <= before and exam.firm_speed:
-        return 1.0
     labelled = exam.inputs.get("stop_velocity")
     if labelled is not None and exam.firm_speed:
         return labelled.si

@@ -164,12 +164,11 @@ def _row_to_probe(table: Table) -> int | None:
     for k in table.rows:
         if k < 2 or k - 1 not in table.rows or k + 1 not in table.rows:
             continue
-        good = sum(formulas.get(table.place(role, k)) is shape for role, shape in computed)
-        good += sum(formulas.get(table.place(role, k + 1)) is shape for role, shape in computed)
-        for line, shape in helpers:
-            good += formulas.get(line.place(table.rows[k])) is shape
+        own = sum(formulas.get(table.place(role, k)) is shape for role, shape in computed)
+        own += sum(formulas.get(line.place(table.rows[k])) is shape for line, shape in helpers)
+        later = sum(formulas.get(table.place(role, k + 1)) is shape for role, shape in computed)
         straight = table.rows[k + 1] - table.rows[k - 1] == 2
-        candidates.append((-good, not straight, abs(k - table.steps // 2), k))
+        candidates.append((-own - later, -own, not straight, abs(k - table.steps // 2), k))
     return min(candidates)[-1] if candidates else None
 
 
@@ -181,7 +180,7 @@ def _probed(table: Table, probe: Probe) -> Fit:
     falls, e, sign = probe.state[end], c, 1.0
     line = table.lines.get("deceleration")
     if line is not None:
-        sign = -1.0 if line.computed and median(line.values.values()) < 0 else 1.0
+        sign = -1.0 if line.computed and _is_negative(table, probe) else 1.0
         e, ways["velocity_final"] = _fall(probe, falls, start, sign)
         if ways["velocity_final"] is REPORT["velocity_final"] and math.isnan(e):
             e = c  # the velocity repeats the force in its own formula
@@ -226,6 +225,24 @@ def _time_of(table: Table, probe: Probe, adds: bool) -> float | None:
         alone = probe.value(probe.state["time", 0], {("time", -1): 1e-200}, {}, {})
         return alone if math.isclose(alone, step, rel_tol=1e-6) else step
     return step
+
+
+def _is_negative(table: Table, probe: Probe) -> bool:
+    """Whether decelerations count as negative: at the impact velocity and a small depth, one is.
+
+    Beyond the depth 2R a contact area D x - x² is negative, too.
+    """
+    small = abs(table.number("depth", 1) or 0.0) / 20
+    speed = abs(impact_velocity(table))
+    state = {
+        (role, d): small if role == "depth" else speed
+        for role, d in probe.state
+        if role == "depth" or role.startswith("velocity")
+    }
+    value = probe.value(probe.state["deceleration", 0], state, {}, {}) if small else math.nan
+    if math.isfinite(value) and value:
+        return value < 0
+    return median(table.lines["deceleration"].values.values()) < 0
 
 
 def _as_read(

@@ -4,12 +4,13 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
+from replication.check.beside import units_beside
 from replication.check.cells import feeding, formula_at, odd_cells
-from replication.check.constants import typed_constants
+from replication.check.constants import typed_constants, typed_stops
 from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import Examination, near
 from replication.check.fit import is_part
-from replication.check.model import refuse_other_model
+from replication.check.model import blank_inputs, refuse_other_model
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
 from replication.check.rows import fit_table
@@ -70,6 +71,7 @@ def examine(
     refuse_other_model(exam, inputs, found, slack)
     take_inputs(exam, inputs)
     typed_constants(exam, inputs, [place for place in typed if place not in exam.read], broken)
+    typed_stops(exam, inputs)
     _broken_equations(exam, inputs, found, broken)
     if result is None:
         _not_converted(exam, inputs, of_units, slack)
@@ -77,10 +79,11 @@ def examine(
         for item in result[1]:
             _wrong_unit(exam, inputs, item, stated.get(item, 0.0))
     _other_ways(exam)
+    units_beside(exam, inputs)
     compare_with_report(exam, inputs)
+    intend(exam)
     first_rows(exam, inputs, idle)
     odd_cells(exam, inputs)
-    intend(exam)
     judge_stop(exam, idle)
     exam.differences.sort(key=lambda d: d.rank)
     return exam
@@ -120,13 +123,21 @@ def _take_for_radius(inputs: Inputs) -> None:
 def _other_ways(exam: Examination) -> None:
     """Report the columns whose formulas follow another scheme, or none."""
     fitted, table = exam.fitted, exam.table
+    blank = blank_inputs(exam)
+    exam.read |= set(blank)
+    for place in blank:
+        exam.add("odd formula", [place], None, "a blank cell is used as an input")
     for role, way in fitted.ways.items():
-        if way is REPORT[role]:
+        if way is REPORT[role] or (blank and role == "deceleration"):
             continue
         column = role if role in table.lines else fitted.brakes
         if role == "velocity_final" and role not in table.lines:
             column = start_of_row(table)[0]
+        line = table.lines[column]
         cells = exam.cells(column, 2 if role == "depth" else 1)
+        if line.usual is not None:  # a first row may have the right formula
+            formulas = table.evaluator.formulas
+            cells = [cell for cell in cells if formulas.get(cell) is line.usual] or cells
         if role == "deceleration":
             cells = _first_wrong(exam) or cells
         if way is not None:

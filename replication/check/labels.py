@@ -7,6 +7,7 @@ from replication.check.words import input_roles, is_unit, unit_in
 from spreadsheets.evaluate import Evaluator, parse, shape_key
 from spreadsheets.foreign import Position
 
+_NUMBER = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[Ee][-+]?[0-9]{1,3})?")
 _SIDEWAYS = 4
 """How far from a number its label may stand."""
 _SURE = re.compile(r"[\[(].+[\])]|\bin \S+$| / |/\S+$|, ")
@@ -67,6 +68,18 @@ def _further(place: Position, evaluator: Evaluator, upwards: bool) -> Iterator[s
             text = _text(cell, evaluator)
             if text and not is_unit(text):
                 yield text
+
+
+def idle_numbers(evaluator: Evaluator) -> dict[str, float]:
+    """The defined names that stand for a number and that no formula uses."""
+    used = {name for shape in evaluator.formulas.values() for name in shape.names}
+    numbers = {}
+    for name, meaning in evaluator.book.names.items():
+        own = name.rpartition("!")[2]
+        match = _NUMBER.fullmatch(meaning.removeprefix("="))
+        if match and own.upper() not in used:
+            numbers[own] = float(match[0])
+    return numbers
 
 
 def cell_names(evaluator: Evaluator) -> dict[Position, str]:

@@ -2,21 +2,25 @@
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 from replication.check.cells import formula_at, predicted
 from replication.check.examination import Examination
-from replication.check.responses import FAMILIES
+from replication.check.responses import FAMILIES, trace
 from replication.check.roles import Inputs
-from replication.check.six import REPORT, end_of_row, start_of_row
+from replication.check.six import REPORT, VARIANTS, end_of_row, start_of_row
 from replication.check.table import address
 from replication.check.taken import report_inputs
 from replication.check.units import Equation
 from replication.check.words import input_roles, title
+from spreadsheets.foreign import Position
 
 _LEAST_KNOWN = 3
 """So many kinds of inputs must be known where the formulas are not the report's."""
 _ROUGH = 0.02
 """A row of numbers belongs to the model if it gives its deceleration to two percent."""
+_LARGE = 1e9
+"""A number in place of a blank cell, so large that a force that reads it is another one."""
 _FEW_ROWS = 6
 """Of fewer rows without formulas it cannot be said that they follow another model."""
 
@@ -34,6 +38,8 @@ def refuse_other_model(
     equations between its numbers and cells hold, or if its inputs are known.
     """
     fitted = exam.fitted
+    if blank_inputs(exam):
+        return
     for role, source in inputs.cells.items():
         if source.cell in exam.read and source.value <= 0 and role != "stop_velocity":
             where = address(source.cell, True)
@@ -60,8 +66,30 @@ def refuse_other_model(
     )
 
 
+def blank_inputs(exam: Examination) -> list[Position]:
+    """The blank cells that the force reads as the density or the resistance of the target.
+
+    Without them the force lacks one of its parts; it has another value if numbers stand there.
+    """
+    fitted = exam.fitted
+    lacks = (VARIANTS["no drag"], VARIANTS["no resistance"])
+    if fitted.force is None or fitted.ways.get("deceleration") not in lacks:
+        return []
+    blank = sorted(trace(exam.table, fitted).blank)
+    depth, speed = (fitted.force.probe.base[s] for s in (fitted.force.x, fitted.force.u))
+
+    def value(cells: Sequence[Position]) -> float:
+        assert fitted.force is not None
+        return replace(fitted.force, cells=dict.fromkeys(cells, _LARGE))(depth, speed)
+
+    filled = value(blank)
+    if fitted.force(depth, speed) == filled:
+        return []
+    return [place for place in blank if value([p for p in blank if p != place]) != filled]
+
+
 def _known_families(inputs: Inputs) -> tuple[int, int]:
-    """How many kinds of inputs are known by label or value, and how many hold the report's value."""
+    """How many kinds of inputs are known by label or value; how many hold the report's value."""
     known, report = 0, 0
     for family, members in FAMILIES.items():
         if family in ("step", "speed"):

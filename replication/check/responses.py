@@ -7,7 +7,7 @@ The exponents of the six numbers tell what an input is:
 """
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reference.units import to_si
@@ -25,6 +25,8 @@ FAMILIES = {
 """The inputs that respond alike."""
 _PLAIN = frozenset({0.0, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0, 0.5, 0.25, 0.75, 1.5})
 """Numbers that formulas hold by themselves; a power of ten is another."""
+_MOST_STEP = 1e-3
+"""A power of ten that is typed as a step is smaller, in seconds."""
 _NUDGE = 1.01
 _MANY = 400
 """So many cells behind a row are looked at."""
@@ -103,12 +105,15 @@ def is_plain(value: float) -> bool:
 
 @dataclass(frozen=True)
 class Trace:
-    """What a table rests on outside its lines: cells, whether they are computed, and numbers typed
-    into formulas, with the cell of the formula (None for the number of a name).
+    """What a table rests on outside its lines.
+
+    `cells` says whether they are computed; `numbers` are those typed into formulas, with the cell
+    of the formula (None for the number of a name); `blank` are cells that hold nothing.
     """
 
     cells: Mapping[Position, bool]
     numbers: Mapping[LiteralKey, tuple[float, Position | None]]
+    blank: frozenset[Position] = frozenset()
 
 
 def trace(table: Table, fitted: Fit) -> Trace:
@@ -121,6 +126,7 @@ def trace(table: Table, fitted: Fit) -> Trace:
     cells: dict[Position, bool] = {}
     numbers: dict[LiteralKey, tuple[float, Position | None]] = {}
     waiting = [place for place in starts if place in formulas]
+    blank: set[Position] = set()
     seen = set(waiting)
     while waiting and len(seen) < _MANY:
         place = waiting.pop()
@@ -130,10 +136,12 @@ def trace(table: Table, fitted: Fit) -> Trace:
                 continue
             if cell not in helpers and type(evaluator.values.get(cell)) is float:
                 cells[cell] = cell in formulas
+            elif cell not in formulas and evaluator.values.get(cell) is None:
+                blank.add(cell)
             if cell in formulas and cell not in seen:
                 seen.add(cell)
                 waiting.append(cell)
-    return Trace(cells, numbers)
+    return Trace(cells, numbers, frozenset(blank))
 
 
 def _single_cells(place: Position, table: Table) -> Iterator[Position]:
@@ -175,10 +183,32 @@ def sources(table: Table, fitted: Fit) -> list[Source]:
         if math.isfinite(value * _NUDGE) and value
     ]
     result += [Source(p, None, 0.0, {}) for p, value in numbers.items() if not value]
-    for key, (value, holder) in found.numbers.items():
-        if not is_plain(value):
-            result.append(Source(holder, key, value, exponents({}, {key: value * _NUDGE})))
-    return result
+
+    def typed(plain: bool) -> list[Source]:
+        some = ((k, *entry) for k, entry in found.numbers.items() if is_plain(entry[0]) == plain)
+        return [Source(p, k, v, exponents({}, {k: v * _NUDGE})) for k, v, p in some if v]
+
+    result += typed(plain=False)
+    stepless = [
+        symbol
+        for symbol in "cet"
+        if symbol in base and all(abs(s.powers.get(symbol, 0.0)) < 0.02 for s in result)
+    ]
+    return result + (_plain_steps(typed(plain=True), stepless) if stepless else [])
+
+
+def _plain_steps(plain: Sequence[Source], stepless: Sequence[str]) -> list[Source]:
+    """The steps among powers of ten that are typed into formulas, such as 1E-9.
+
+    Mostly these convert a unit. Where nothing else gives a column its step, a single one is it.
+    """
+    steps: list[Source] = []
+    for symbol in stepless:
+        own = [s for s in plain if s.value < _MOST_STEP and s.family == "step"]
+        own = [s for s in own if abs(s.powers.get(symbol, 0.0) - 1) < 0.02]
+        if len(own) == 1 and own[0] not in steps:
+            steps += own
+    return steps
 
 
 def _all_numbers(table: Table, fitted: Fit, cells: Cells, literals: Literals) -> dict[str, float]:

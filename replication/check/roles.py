@@ -1,4 +1,4 @@
-"""What each cell is that a table rests on: by its response, where that leaves a choice by its label.
+"""What each cell is that a table rests on: by its response; if that leaves a choice, by its label.
 
 Labels tell beta from flow stress and name things in messages. Cells that nothing reads are inputs
 only by their label.
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from reference.units import same_dimension
 from replication.check.fit import Fit
-from replication.check.labels import label_of
+from replication.check.labels import idle_numbers, label_of
 from replication.check.responses import CLOSE, FAMILIES, Item, Source, is_plain, sources, unit_power
 from replication.check.table import Table
 from replication.check.words import input_roles
@@ -76,6 +76,8 @@ def recognize(
     reader.by_label()
     for place in idle:
         reader.unread(place)
+    for name, value in idle_numbers(table.evaluator).items():
+        reader.unused(name, value)
     for role, place in given.items():
         reader.mapped(role, place)
     return inputs
@@ -265,7 +267,7 @@ class _Roles:
             plain = is_plain(source.value) and source.value != 0
             if source.cell not in taken and len(roles) == 1 and not plain:
                 (role,) = roles
-                if role not in cells and role not in derived:
+                if (role not in cells or cells[role].cell is None) and role not in derived:
                     (derived if source.computed else cells)[role] = source
                     self.inputs.how[role] = "label"
 
@@ -280,6 +282,17 @@ class _Roles:
             if (known is None or known.cell is None) and role not in self.inputs.derived:
                 is_formula = place in self.evaluator.formulas
                 self.inputs.cells[role] = Source(place, None, value, {}, is_formula)
+                self.inputs.how[role] = "unread"
+
+    def unused(self, name: str, value: float) -> None:
+        """Take a name that nothing uses for the input that it calls, if no cell holds it."""
+        roles = input_roles(name, None)
+        if len(roles) == 1 and math.isfinite(value):
+            (role,) = roles
+            known = self.inputs.cells.get(role)
+            typed = known is None or (known.cell is None and not known.name)
+            if typed and role not in self.inputs.derived:
+                self.inputs.cells[role] = Source(None, (name.upper(), 0), value, {})
                 self.inputs.how[role] = "unread"
 
     def mapped(self, role: str, place: Position) -> None:

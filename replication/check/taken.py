@@ -8,10 +8,14 @@ from reference.ledger import claims_of_case, load
 from replication.check.examination import Examination, near
 from replication.check.roles import Input, Inputs
 from replication.check.six import Six, start_of_row
-from replication.check.words import INPUTS, quantity, times_too, title
+from replication.check.words import INPUTS, digits_of, quantity, times_too, title
 
 OTHER_STEP = 5e-10
 """The report's second time step [s]; the first one is among its printed inputs."""
+_NO_BETA = 1e3
+"""No beta is so large; a flow stress in Pa is larger."""
+_DIGITS = 3
+"""A mass is typed with so many digits at least."""
 _ALIKE = 3
 """So many other inputs must be the report's where one is called a thousand times too large."""
 
@@ -159,10 +163,11 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
     It is one if all others are the report's, and this one is it but for a power of ten.
     """
     report = report_inputs()
+    _swapped(exam)
     typed = [
         role for role, entry in exam.inputs.items()
         if entry.place and role in report and role != "stop_velocity"
-        and (role in inputs.cells or role not in inputs.derived)
+        and (role in inputs.cells or role not in inputs.derived or _of_numbers(exam, role))
     ]  # fmt: skip
     others = [role for role in typed if not is_report(role, exam.inputs[role].si)]
     accused = {d.place for d in exam.differences}
@@ -171,8 +176,8 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         assert entry.place is not None
         if entry.place in accused:
             continue
-        powers = [math.log10(entry.si / value) for value in report[role] if entry.si > 0]
-        off = next((round(p) for p in powers if abs(p - round(p)) < 1e-9), 0)
+        known = (*report[role], OTHER_STEP) if role == "step" else report[role]
+        off = next(filter(None, (_power_off(entry, value) for value in known)), 0)
         is_slip = off % 3 == 0 or off % 2 == 0  # a unit ten times another one is unusual
         if off and is_slip and len(others) == 1 and len(typed) - 1 >= _ALIKE:
             text = (
@@ -184,6 +189,45 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         shown = " or ".join(quantity(value, role) for value in report[role])
         text = f"{title(role)} is {quantity(entry.si, role)}, in the report {shown}"
         exam.add("other input", [entry.place], None, text)
+
+
+_PARTS = {
+    "mass": ("radius", "diameter", "particle_density"), "resistance": ("beta", "flow_stress"),
+    "diameter": ("radius",),
+}  # fmt: skip
+"""The inputs from which formulas compute others."""
+
+
+def _swapped(exam: Examination) -> None:
+    """Report labels of beta and flow stress that name each other's number.
+
+    A beta, a ratio of stresses, is no thousand, and no flow stress is below a thousand Pa.
+    """
+    beta, stress = exam.inputs.get("beta"), exam.inputs.get("flow_stress")
+    if beta is None or stress is None or beta.place is None or stress.place is None:
+        return
+    if beta.si >= _NO_BETA > stress.si and "label" in (beta.how, stress.how):
+        text = f"the labels of {title('beta')} and {title('flow_stress')} are swapped: beta would "
+        exam.add("unit", [beta.place, stress.place], stress.value, f"{text}be {beta.si:.10g}")
+
+
+def _of_numbers(exam: Examination, role: str) -> bool:
+    """Whether an input is computed from typed numbers alone: it is then an input by itself."""
+    parts = [exam.inputs[part] for part in _PARTS.get(role, ()) if part in exam.inputs]
+    return all(part.place is None for part in parts)
+
+
+def _power_off(entry: Input, value: float) -> int:
+    """By which power of ten an input is not a value of the report; 0 if it is another number.
+
+    A mass, which the report does not print, may be typed with few digits.
+    """
+    if entry.si <= 0:
+        return 0
+    if entry.role == "mass" and (digits := digits_of(entry.value)[0]) >= _DIGITS:
+        value = float(f"{value:.{digits - 1}e}")
+    power = math.log10(entry.si / value)
+    return round(power) if abs(power - round(power)) < 1e-9 else 0
 
 
 def is_report(role: str, value: float) -> bool:

@@ -106,15 +106,16 @@ def _of_step(table: Table, inputs: Inputs, c: Quantity, e: Quantity, t: Quantity
     sides = {"c = dt": ("c", c), "e = dt": ("e", e), "t = dt": ("t", t)}
     if "deceleration" not in table.lines:
         del sides["e = dt"]
-    return {
+    by_cell = {
         name: (side, _of(step))
         for name, (symbol, side) in sides.items()
         if abs(step.powers.get(symbol, 1.0) - 1) < 0.02
     }
+    return by_cell if "t = dt" in by_cell else {**by_cell, "t = c": (t, c)}
 
 
 def _of_force(inputs: Inputs, D: Quantity, G: Quantity, H: Quantity) -> _Sides:
-    """The equations of the sphere, its mass and the target."""
+    """The equations of the sphere and its mass, then those of the target."""
     cells, derived, sides = inputs.cells, inputs.derived, _Sides()
     R = _of(cells["radius"]) if "radius" in cells else None
     diameter = cells.get("diameter") or derived.get("diameter")
@@ -132,6 +133,12 @@ def _of_force(inputs: Inputs, D: Quantity, G: Quantity, H: Quantity) -> _Sides:
         if M is not None:
             sides["mass"] = (_of(mass), M)
         M = _of(mass)
+    return sides | _of_target(inputs, G, H, M)
+
+
+def _of_target(inputs: Inputs, G: Quantity, H: Quantity, M: Quantity | None) -> _Sides:
+    """The equations of the target's density and its resistance; M is the mass, if it is known."""
+    cells, derived, sides = inputs.cells, inputs.derived, _Sides()
     target = cells.get("target_density") or derived.get("target_density")
     if target is not None and M is not None:
         sides["G"] = (_number(2 / math.pi) * G * M, _of(target))
@@ -218,7 +225,7 @@ _Own = list[tuple[Equation, list[Item]]]
 def _set_apart(
     found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], slack: float
 ) -> tuple[list[Equation], _Own]:
-    """Set equations apart that have a free unit of their own: they can be made to hold at the end."""
+    """Set equations apart that have a free unit of their own: at the end it makes them hold."""
     left, later = list(found), _Own()
     while any(abs(eq.residual(powers)) >= slack for eq in left):
         counts: dict[Item, int] = {}

@@ -427,6 +427,8 @@ def _nothing(evaluator: Evaluator) -> str:
     instead = sorted(_labelled_texts(evaluator) | _spoiling(evaluator, first))
     for place in instead:
         nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
+    for place in _labelled_blanks(evaluator):
+        nothing += f"; {address(place, True)} is blank, though formulas read it"
     for place in sorted(evaluator.unknown)[:1]:
         nothing += f"; {address(place, True)} is not computed: {evaluator.reasons[place]}"
     if first:
@@ -467,6 +469,21 @@ def _labelled_texts(evaluator: Evaluator) -> set[Position]:
             if label and label != text and input_roles(label, unit):
                 found.add(place)
     return found
+
+
+def _labelled_blanks(evaluator: Evaluator) -> list[Position]:
+    """Return the blank cells that formulas read and whose labels name an input."""
+    read = {
+        (a.sheet, a.top, a.left) for p in evaluator.formulas for a in evaluator.areas(p)
+        if a.cells == 1
+    }  # fmt: skip
+    blank = []
+    for place in sorted(read - evaluator.formulas.keys()):
+        if evaluator.values.get(place) is None:
+            label, unit, _ = label_of(place, evaluator)
+            if label and input_roles(label, unit):
+                blank.append(place)
+    return blank[:_FEW]
 
 
 def _without_numbers(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Difference]:

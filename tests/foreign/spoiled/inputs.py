@@ -124,7 +124,7 @@ CASES = (
     ),
     case(
         "another impact velocity than its name's typed",
-        fault("typed constant", "D3", "D4"),
+        fault(("typed constant", "typed number"), "D3", "D4"),
         put("D3", 450),
         put("D4", 450),
         put("G3", 450),
