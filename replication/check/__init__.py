@@ -27,7 +27,8 @@ How six numbers become a verdict:
 7. `cells` compares each cell that has not the usual formula of its column with that formula, in
    its own row: in value, in response to the row, in response to the inputs. So faults do not
    cascade. `ends` judges the first row, and the last by running the scheme with the inputs that
-   were meant (`taken`); `results` what is shown beside the table; `stale` stored values.
+   were meant (`taken`); `excerpt` a few rows typed off the report; `results` what is shown beside
+   the table; `stale` stored values.
 8. `show` says it: the verdict, the first fault in order of calculation, what was taken for what.
 
 `diff`, with `matching`, `layout`, `references`, `following` and `diff_show`, compares two workbooks
