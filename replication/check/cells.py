@@ -170,7 +170,7 @@ def _blank_rows(exam: Examination) -> None:
         gap = {line.place(i) for line in usual for i in range(index + 1, after)}
         goes_on = [o for o in usual if evaluator.formulas.get(o.place(after)) is o.usual]
         if any(_reads_one(evaluator, line.place(after), gap) for line in goes_on):
-            cells = [line.place(i) for i in range(index + 1, after) for line in usual]
+            cells = sorted(line.place(i) for i in range(index + 1, after) for line in usual)
             text = f"{BLANK_ROW}, though the formulas below it read it"
             rank = (1, k + 0.5, 0)
             exam.differences.append(Difference("odd formula", tuple(cells), None, None, text, rank))
@@ -201,19 +201,19 @@ def _broken_off(exam: Examination, lines: Sequence[Line]) -> None:
             return
 
 
-def _breaks_off(exam: Examination, place: Position) -> None:
+def _breaks_off(exam: Examination, place: Position, after: str = "the table breaks off") -> None:
     """Report the cell at which a column stops to give numbers."""
     evaluator = exam.table.evaluator
     if place in evaluator.formulas:
-        text = f"{formula_at(exam, place)} gives no number: the table breaks off"
+        text = f"{formula_at(exam, place)} gives no number: {after}"
         exam.add("odd formula", [place], None, text)
     elif _is_blank(evaluator, place):
-        text = "the cell is blank, though formulas of its row read it: the table breaks off"
+        text = f"the cell is blank, though formulas of its row read it: {after}"
         exam.add("odd formula", [place], None, text)
     else:
         value = evaluator.values.get(place)
-        text = f"{typed_what(value)} is typed here: the table breaks off"
-        exam.add("typed number", [place], None, text, quoted(value))
+        text = f"{typed_what(value)} is typed here: {after}"
+        exam.add("typed number", [place], None, text, as_typed(value))
 
 
 def _broken_times(exam: Examination) -> None:
@@ -250,7 +250,7 @@ def _broken_times(exam: Examination) -> None:
             index -= 1
         value = evaluator.values.get(column.place(index))
         if type(value) is not float and not _is_blank(evaluator, column.place(index)):
-            _breaks_off(exam, column.place(index))
+            _breaks_off(exam, column.place(index), "the times from here on are errors")
 
 
 def _adds(line: Line, index: int) -> bool:
@@ -424,6 +424,11 @@ def typed_what(value: object) -> str:
     return "a number" if isinstance(value, float) else "a text"
 
 
+def as_typed(value: Scalar) -> Scalar:
+    """What is typed into a cell as a difference shows it: a text in quotation marks."""
+    return quoted(value) if isinstance(value, str) else value
+
+
 def _typed(exam: Examination, odd: _Cell) -> Verdict | None:
     """The verdict on a cell without a formula."""
     value, line = odd.value, odd.line
@@ -433,7 +438,7 @@ def _typed(exam: Examination, odd: _Cell) -> Verdict | None:
     if type(value) is not float:
         if (line.computed and line.usual is not None) or odd.role not in (None, "time"):
             text = f"{typed_what(value)} is typed{odd.would}"
-            return "typed number", text, odd.expected, quoted(value)
+            return "typed number", text, odd.expected, as_typed(value)
         return None
     same = _same(value, odd.expected, line, exam)
     if line.computed and line.usual is not None:

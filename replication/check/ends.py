@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from replication.check.cells import (
     BLANK_ROW,
     RIGHT_HERE,
+    as_typed,
     formula_at,
     predicted,
     typed_what,
@@ -18,7 +19,6 @@ from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run
 from replication.check.table import address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import input_roles, times_too, title
-from replication.reading import quoted
 from spreadsheets.foreign import Position
 
 OTHER_STOP = "other stop"
@@ -96,7 +96,7 @@ def _no_number(exam: Examination, place: Position, what: str, wanted: float) -> 
         exam.add("odd formula", [place], wanted, f"{what} is blank")
     else:
         text = f"{typed_what(value)} is typed for {what}"
-        exam.add("typed number", [place], wanted, text, quoted(value))
+        exam.add("typed number", [place], wanted, text, as_typed(value))
 
 
 def _first_response(exam: Examination, place: Position, inputs: Inputs) -> None:

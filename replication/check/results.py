@@ -172,7 +172,11 @@ def _fault(
         text = f"{_what(result)} is {times_too(result.power - wanted)}: a unit is not converted"
         return ("unit", None, text) if named == "ratio" and result.power != wanted else None
     if named == "ratio" and not unit and _tells_ratio(result.exam):
-        return "odd formula", None, "the number is the depth, not the depth over the radius"
+        return (
+            "odd formula",
+            None,
+            "the label says the depth over the radius, but the number is the depth",
+        )
     return _other_unit(result, unit) if unit and sure else None
 
 

@@ -11,7 +11,7 @@ from reference.units import written
 from replication import page
 from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.table import address
-from replication.check.words import COLUMNS, INPUTS, count, unit_text
+from replication.check.words import COLUMNS, INPUTS, count, is_unit, unit_text
 from replication.check.workbook import Check
 from replication.reading import printable
 from replication.text import aligned, quantity, with_unit
@@ -164,14 +164,23 @@ def contents(difference: Record) -> str:
 
     >>> contents({"kind": "printed number", "expected": "7.67 um", "found": 7.68e-06})
     'holds 7.68e-06, the report prints 7.67 um'
+    >>> contents({"kind": "unit", "expected": "m", "found": "mm"})
+    'stated in mm, is in m'
+    >>> contents({"kind": "odd formula", "expected": 500.0, "found": None})
+    'is blank, should hold 500.0'
     """
     values = difference["expected"], difference["found"]
     expected, found = ("blank" if value is None else safe(value, 120) for value in values)
     if difference["kind"] == "printed number":  # in the report's unit, not the cell's
         return f"holds {found}, the report prints {expected}"
-    if values[0] is not None and expected != found:
-        return f"holds {found}, should hold {expected}"
-    return "" if values[1] is None else f"holds {found}"
+    if difference["kind"] == "unit" and isinstance(values[0], str):
+        return f"stated in {found}, is in {expected}" if is_unit(found) else f"is in {expected}"
+    if values[0] is None or expected == found:
+        return "" if values[1] is None else f"holds {found}"
+    if values[1] is None:
+        return f"is blank, should hold {expected}"
+    reads = found.startswith("=") and isinstance(values[0], str) and expected[:1] != "="
+    return f"holds {found}, should {'read' if reads else 'hold'} {expected}"
 
 
 def text(record: Record) -> str:

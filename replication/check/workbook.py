@@ -144,6 +144,7 @@ def _tell_still(exams: Sequence[Examination], still: Still) -> None:
             what = "the cell is blank" if blank else "a zero is typed here"
             text = f"{what}: no row moves; checked as if {still.formula} stood here"
             cells, rank = (still.place,), exam.rank(still.place)
+            exam.ends = False  # its depths are those that were meant
             exam.differences.append(Difference(kind, cells, still.formula, still.found, text, rank))
             return
 
@@ -173,6 +174,7 @@ def _tell_lost(exams: Sequence[Examination], slip: Slipped) -> None:
             text = f"the reference to {meant} lacks its $: it slips away from that cell, row by row"
             expected = slip.formulas[slip.cells[0]]
             exam.add("odd formula", slip.cells, expected, text)
+            exam.ends = False  # its depths are those that were meant
             return
 
 
@@ -439,7 +441,7 @@ def _nothing(evaluator: Evaluator) -> str:
     if evaluator.unknown:
         return f"{nothing}: correct it, or save the workbook with a program that computes it"
     such = "--map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
-    return f"{nothing}: say where they are, such as {such}"
+    return f"{nothing}: if there is one, say where, as with {such}"
 
 
 def _spoiling(evaluator: Evaluator, first: Position | None) -> set[Position]:
@@ -570,7 +572,8 @@ def _uncalculated(evaluator: Evaluator) -> Iterator[Difference]:
     reasons: dict[str, list[Position]] = {}
     for place in evaluator.formulas:
         if evaluator.book[place].value is None:
-            reasons.setdefault("no value is stored; they are computed here", []).append(place)
+            why = "no value is stored to compare with; they are computed here"
+            reasons.setdefault(why, []).append(place)
     for place, why in evaluator.reasons.items():
         stored = evaluator.book[place].value is not None
         taken = "their stored values are taken" if stored else "nor is a value stored"

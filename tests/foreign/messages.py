@@ -34,7 +34,12 @@ SHOWN = {
         "target density in the rows, not of its cell",
     ),
     "cells": (
-        "D20 abc", "D20", "D20 =1/0", "C20 400", "two faults",
+        "D20 abc", "D20", "D20 =1/0", "C20 400", "two faults", "A20 abc", "A9 true", "C9", "C9 0.0",
+        "C9 400", "D9", "D60", "F9 abc", "F20 =NA()", "a row gone",
+        "first velocity ten times too large", "time of row 12 with the step typed",
+        "labels of both results",
+        "the largest depth of too few rows", "final depth by way of a column of X/R, in mm",
+        "final X/R of the row before the last of a column",
         "deceleration with the wrong sign of x² in row 12",
     ),
     "columns": (
