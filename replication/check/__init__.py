@@ -23,11 +23,12 @@ How six numbers become a verdict:
 5. `units`: D = 2R, 2GM/pi = rho_t, HM/pi = R_t, M = 4/3 pi R^3 rho_p, R_t = beta Y_t, c = e = dt
    have to hold. A power of ten is a unit: the one statement is found that mends all. Another ratio
    is a slip: it is looked for where the equation is written (`judge`, `constants`).
-6. If neither formulas nor inputs are the report's, it is another model, and is not judged (`model`).
+6. If neither formulas nor inputs are the report's, it is another model and not judged (`model`).
 7. `cells` compares each cell that has not the usual formula of its column with that formula, in
    its own row: in value, in response to the row, in response to the inputs. So faults do not
    cascade. `ends` judges the first row, and the last by running the scheme with the inputs that
-   were meant (`taken`); `results` what is shown beside the table; `stale` stored values.
+   were meant (`taken`); `excerpt` a few rows typed off the report; `results` what is shown beside
+   the table; `stale` stored values.
 8. `show` says it: the verdict, the first fault in order of calculation, what was taken for what.
 
 `diff`, with `matching`, `layout`, `references`, `following` and `diff_show`, compares two workbooks

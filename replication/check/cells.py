@@ -441,7 +441,8 @@ def _typed(exam: Examination, odd: _Cell) -> Verdict | None:
             return "typed number", text, odd.expected, as_typed(value)
         return None
     same = _same(value, odd.expected, line, exam)
-    if line.computed and line.usual is not None:
+    mixed = line.computed or odd.role is not None  # half of a column may be typed
+    if mixed and line.usual is not None:
         if odd.role is None and same and odd.k == 1:
             return None
         text = f"a number is typed{odd.would}{RIGHT_HERE if same else ''}"

@@ -71,7 +71,10 @@ class Examination:
         return None if value is None else float(value * 10.0 ** self.units.get("depth", 0.0))
 
     def right_force(self, off: float | None = None) -> RightForce:
-        """The force that the inputs give, as far as cells hold them; `off`: how a wrong one is off."""
+        """The force that the inputs give, as far as cells hold them.
+
+        `off` says how a wrong one is off.
+        """
         known = {
             role: entry.si for role, entry in self.inputs.items()
             if entry.place is not None or entry.how == "follows"

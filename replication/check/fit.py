@@ -117,9 +117,10 @@ class Fit:
 
     `six` are its numbers, `time` is by how much the time grows, `sign` is -1 where decelerations
     are negative. `ways` are the ways in which columns are filled, None for a formula that follows
-    none; `brakes` is the column in which the force is seen. `force` is missing if there is none, or
-    if there are no formulas; so is then `probe`. `time_adds` and `depth_adds` say whether the formula
-    of a time or a depth adds to the one before, or is a sum by itself. `slack` is the relative uncertainty of the numbers.
+    none; `brakes` is the column in which the force is seen. `force` is missing if there is none,
+    or if there are no formulas; so is then `probe`. `time_adds` and `depth_adds` say whether the
+    formula of a time or a depth adds to the one before, or is a sum by itself. `slack` is the
+    relative uncertainty of the numbers.
     """
 
     six: Six
@@ -316,7 +317,9 @@ def _is_sum(table: Table, probe: Probe, slopes: Mapping[State, float]) -> bool:
     u = table.number(start[0], k + start[1])
     if start not in slopes or len(slopes) < 2 or None in (now, before, u):
         return False
-    assert now is not None and before is not None and u is not None
+    assert now is not None
+    assert before is not None
+    assert u is not None
     return math.isclose(now - before, slopes[start] * u, rel_tol=1e-7)
 
 
@@ -558,7 +561,10 @@ def numbers_with(fitted: Fit, table: Table, cells: Cells, literals: Literals) ->
 
 
 class RightForce(NamedTuple):
-    """The right force by its inputs, in SI units but for D, and in which ratio the wrong one is off."""
+    """The right force by its inputs, in SI units but for D.
+
+    `ratio` is G/H in the units of the columns; `off` is the ratio in which the wrong one is off.
+    """
 
     ratio: float | None
     D: float | None
@@ -602,10 +608,22 @@ def is_part(fitted: Fit, place: Position, right: RightForce) -> bool:
         if right.ratio and not math.isclose(share, right.ratio, rel_tol=1e-6):
             return False
     constant = abs(grid[rows[0]][j]) / (speed ** rows[0] * small**j)
+    return _is_right_constant(constant, rows, columns, right)
+
+
+def _is_right_constant(
+    constant: float, rows: Sequence[int], columns: Sequence[int], right: RightForce
+) -> bool:
+    """Whether the constant of a part of the force is not off as the wrong force is.
+
+    `rows` are the powers of the velocity in the part, `columns` those of the depth.
+    """
+    if right.off is None or columns not in ([0], [1, 2]) or rows == [0] == columns:
+        return True
     known = {0: right.resistance, 2: right.density and right.density / 2}.get(rows[0])
     if columns == [1, 2]:
-        known = math.pi * (known or 1.0) if rows != [0] else math.pi
-    if right.off is None or known is None or columns not in ([0], [1, 2]) or rows == [0] == columns:
+        known = math.pi if rows == [0] else math.pi * (known or 1.0)
+    if known is None:
         return True
     slip = math.log10(constant / known / right.off)
     return abs(slip - round(slip)) > 1e-8

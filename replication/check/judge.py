@@ -9,6 +9,7 @@ from replication.check.cells import feeding, formula_at, odd_cells
 from replication.check.constants import typed_constants, typed_stops
 from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import Examination, near
+from replication.check.excerpt import judge_excerpt
 from replication.check.fit import is_part
 from replication.check.model import blank_inputs, refuse_other_model
 from replication.check.responses import CLOSE, Item, unit_power
@@ -82,8 +83,9 @@ def examine(
     units_beside(exam, inputs)
     compare_with_report(exam, inputs)
     intend(exam)
-    first_rows(exam, inputs, idle)
-    odd_cells(exam, inputs)
+    if not judge_excerpt(exam):
+        first_rows(exam, inputs, idle)
+        odd_cells(exam, inputs)
     judge_stop(exam, idle)
     exam.differences.sort(key=lambda d: d.rank)
     return exam

@@ -8,11 +8,12 @@ times the same constant. Heads only decide between lines that fit alike, and nam
 import math
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import groupby, pairwise
 from statistics import median
+from typing import NamedTuple
 
 from replication.check.difference import span
 from replication.check.labels import is_sure
@@ -69,7 +70,8 @@ class Line:
     """A column (or, `across`, a row) of numbers, by their index along it.
 
     `head` is the text above, `unit` the unit that it states, if any; `sure`: that unit stands in
-    brackets or in a cell of its own. `given`: the user named the line.
+    brackets or in a cell of its own. `given`: the user named the line. `meant` is the formula that
+    its cells should have, if it is known by what it gives.
     """
 
     evaluator: Evaluator
@@ -78,6 +80,7 @@ class Line:
     number: int
     values: Mapping[int, float]
     given: str | None = None
+    meant: Shape | None = None
 
     def place(self, index: int) -> Position:
         """The cell at an index."""
@@ -173,6 +176,8 @@ class Line:
     @cached_property
     def usual(self) -> Shape | None:
         """The formula that most cells have, if a third have one."""
+        if self.meant is not None:
+            return self.meant
         shapes = self.shapes
         if not shapes:
             return None
@@ -355,6 +360,11 @@ def repeats(start: Line, end: Line) -> float:
     return same / len(pairs) if distinct else 0.0
 
 
+def _is_repeated(start: Line, end: Line) -> bool:
+    """Whether one velocity repeats another; of formulas a third tell it, as none does by chance."""
+    return repeats(start, end) > (0.3 if start.computed and end.computed else 0.5)
+
+
 def _is_constant(line: Line) -> bool:
     values = list(line.values.values())
     return sum(value == values[0] for value in values) > 0.8 * len(values)
@@ -381,7 +391,7 @@ def _falls(speed: Line, other: Line | None, role: str) -> list[tuple[int, float,
 
 
 def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[Table]:
-    """The tables of a workbook in the order of its sheets; `given` are lines that the user named."""
+    """The tables of a workbook in the order of its sheets; `given` are lines that a user named."""
     found: list[Table] = []
     every = lines(evaluator)
     if given.keys() & {"depth", "velocity", "velocity_initial", "velocity_final"}:
@@ -394,10 +404,10 @@ def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[Table]:
     for known in every.values():
         found += _by_heads(evaluator, [o for o in known if not o.computed and len(o.values) < 8])
     for close in (_EXACT, _LOOSE):
-        for (sheet, across), known in sorted(every.items(), key=lambda item: -longest[item[0]]):
+        for _, known in sorted(every.items(), key=lambda item: -longest[item[0]]):
             taken = {place for table in found for place in table.places}
             free = [o for o in known if not any(o.place(i) in taken for i in o.values)]
-            found += _on_sheet(evaluator, sheet, across, free[:_MOST_LINES], close)
+            found += _on_sheet(evaluator, free[:_MOST_LINES], close)
         if found:
             break
     if not found:
@@ -429,11 +439,43 @@ def _shows(table: Table, other: Table) -> bool:
     return reads > len(some) / 2
 
 
-def _on_sheet(
-    evaluator: Evaluator, sheet: str, across: bool, known: Sequence[Line], close: float
-) -> list[Table]:
+def _on_sheet(evaluator: Evaluator, known: Sequence[Line], close: float) -> list[Table]:
     """The tables among some lines of a sheet, the best pairs of depth and velocity first."""
-    pairs = []
+    pairs = list(_pairs_of(known, close))
+    if any(not pair.depth.computed for pair in pairs):
+        pairs = [
+            pair._replace(score=pair.score + _support(pair.speed, pair.c, known)) for pair in pairs
+        ]
+    found: list[Table] = []
+    used: set[Position] = set()
+
+    def is_free(line: Line) -> bool:
+        return used.isdisjoint(map(line.place, line.values))
+
+    for _, depth, speed, lag, c in sorted(pairs, key=lambda pair: -pair.score):
+        if not (is_free(depth) and is_free(speed)):
+            continue
+        table = _made(evaluator, depth, speed, lag, c, [o for o in known if is_free(o)])
+        if table is None or any(_beside(table, o) for o in found):
+            continue
+        if depth.computed or len(table.lines) > 2 or not found:
+            found.append(table)
+            used.update(table.places)
+    return found
+
+
+class _Pair(NamedTuple):
+    """A depth that grows by a velocity times `c`, of the same row (`lag` 0) or the one before."""
+
+    score: float
+    depth: Line
+    speed: Line
+    lag: int
+    c: float
+
+
+def _pairs_of(known: Sequence[Line], close: float) -> Iterator[_Pair]:
+    """The pairs of lines that may be depth and velocity."""
     depths = [o for o in known if o.grows or (o.computed and _reads(o, o))]
     speeds = [o for o in known if (o.positive or o.computed) and not _is_constant(o)]
     if close == _LOOSE:
@@ -445,26 +487,7 @@ def _on_sheet(
             for lag in (0, 1):
                 c, share = grows_by(depth, speed, lag, close)
                 if share > 0.5 and c > 0 and _may_be(depth, speed):
-                    pairs.append((_score(depth, speed, lag, share), depth, speed, lag, c))
-    if any(not pair[1].computed for pair in pairs):
-        pairs = [(score + _support(speed, c, known), depth, speed, lag, c)
-                 for score, depth, speed, lag, c in pairs]  # fmt: skip
-    pairs.sort(key=lambda entry: -entry[0])
-    found: list[Table] = []
-    used: set[Position] = set()
-
-    def is_free(line: Line) -> bool:
-        return used.isdisjoint(map(line.place, line.values))
-
-    for _, depth, speed, lag, c in pairs:
-        if is_free(depth) and is_free(speed):
-            table = _made(evaluator, depth, speed, lag, c, [o for o in known if is_free(o)])
-            if table is None or any(_beside(table, o) for o in found):
-                continue
-            if depth.computed or len(table.lines) > 2 or not found:
-                found.append(table)
-                used.update(table.places)
-    return found
+                    yield _Pair(_score(depth, speed, lag, share), depth, speed, lag, c)
 
 
 def _support(speed: Line, c: float, known: Sequence[Line]) -> float:
@@ -559,8 +582,8 @@ def _made(
     """The table of a depth and a velocity, with the lines that belong to it."""
     others = [o for o in known if o not in (depth, speed)]
     roles: dict[str, Line] = {"depth": depth}
-    ends = [o for o in others if repeats(speed, o) > 0.5]
-    starts = [o for o in others if repeats(o, speed) > 0.5]
+    ends = [o for o in others if _is_repeated(speed, o)]
+    starts = [o for o in others if _is_repeated(o, speed)]
     ends.sort(key=lambda o: (not _reads(speed, o), "velocity_final" not in o.roles))
     starts.sort(key=lambda o: (not _reads(o, speed), "velocity_initial" not in o.roles))
     if ends and (lag == 0 or not starts):
@@ -569,11 +592,11 @@ def _made(
         roles |= {"velocity_initial": starts[0], "velocity_final": speed}
     else:
         single = "velocity_final" if lag else "velocity_initial"
-        roles[_single(single, depth, speed, others)] = speed
+        roles[_single(single, depth, speed)] = speed
     return _completed(evaluator, roles, known, c)
 
 
-def _single(role: str, depth: Line, speed: Line, others: Sequence[Line]) -> str:
+def _single(role: str, depth: Line, speed: Line) -> str:
     """The end of the rows to which their only velocity belongs.
 
     If the force of a row is taken at the velocity in the same row, that is the one at its start,
@@ -585,7 +608,7 @@ def _single(role: str, depth: Line, speed: Line, others: Sequence[Line]) -> str:
 
 
 def _is_ahead(speed: Line, depth: Line) -> bool:
-    """Whether the velocity of a row is computed from the depth of the same row, not the one before."""
+    """Whether the velocity of a row is computed from the depth of the same row."""
     if not speed.computed:
         return True
     index = _typical(speed)
@@ -618,14 +641,33 @@ def _completed(
     if len(indices) < LEAST:
         return None
     roles = {name: _within(line, indices) for name, line in roles.items()}
+    if both is not None:
+        roles[role] = _repeating(roles[role], roles["velocity_final"])
     depth, speed = roles["depth"], roles[role]
     zero, whole = _first_row(depth, speed, role, indices, c)
-    rows = {k: index for k, index in enumerate(indices, zero)}
+    rows = dict(enumerate(indices, zero))
     if max(rows) < 1:
         return None
     numbers = {line.number for line in roles.values()}
     helpers = tuple(_within(o, indices) for o in others if o.number not in numbers)
     return Table(evaluator, depth.sheet, depth.across, roles, helpers, rows, whole)
+
+
+def _repeating(start: Line, end: Line) -> Line:
+    """The velocities at the start of rows, with the formula meant that repeats those at the end.
+
+    Where two formulas share the column, it need not be the more frequent one.
+    """
+    formulas, counter = start.evaluator.formulas, Counter[Shape]()
+    for before, now in _pairs(start):
+        shape = formulas.get(start.place(now))
+        if shape is not None and end.values.get(before) == start.values[now]:
+            counter[shape] += 1
+    if not counter:
+        return start
+    shape, count = counter.most_common(1)[0]
+    is_usual = count > 2 and 3 * count >= len(start.values) - 2
+    return replace(start, meant=shape) if is_usual else start
 
 
 def _within(line: Line, indices: Sequence[int]) -> Line:
@@ -745,45 +787,67 @@ def _time(others: Sequence[Line], c: float, near: int, taken: set[Line]) -> Line
     return ranked[0][-1] if ranked else None
 
 
+def _best(depths: Iterable[tuple[Line, float]]) -> Line | None:
+    """The line with the largest share of rows that fit, if more than half of them do."""
+    ranked = [(share, line) for line, share in depths if share > 0.5]
+    return max(ranked, key=lambda entry: entry[0])[1] if ranked else None
+
+
 def _given(evaluator: Evaluator, given: Mapping[str, Line], beside: Sequence[Line]) -> Table | None:
     """The table of lines that the user named; the others are found as usual."""
     roles = {("velocity_initial" if r == "velocity" else r): o for r, o in given.items()}
     if "depth" not in roles:
-        partners = [(s, o) for o in beside for r in roles.values() if o.grows
-                    for s in [max(grows_by(o, r, lag)[1] for lag in (0, 1))] if s > 0.5]  # fmt: skip
-        if not partners:
+        depth = _best(
+            (o, max(grows_by(o, r, lag)[1] for lag in (0, 1)))
+            for o in beside if o.grows for r in roles.values()
+        )  # fmt: skip
+        if depth is None:
             return None
-        roles["depth"] = max(partners, key=lambda entry: entry[0])[1]
+        roles["depth"] = depth
     if not roles.keys() & {"velocity_initial", "velocity_final"}:
-        partners = [(s, o) for o in beside for s in [grows_by(roles["depth"], o, 0)[1]] if s > 0.5]
-        if not partners:
+        speed = _best((o, grows_by(roles["depth"], o, 0)[1]) for o in beside)
+        if speed is None:
             return None
-        roles["velocity_initial"] = max(partners, key=lambda entry: entry[0])[1]
-    speed = roles.get("velocity_initial", roles.get("velocity_final"))
-    assert speed is not None
+        roles["velocity_initial"] = speed
+    if "velocity_final" not in roles:
+        roles |= _other_velocity(roles, "velocity" in given, beside)
+        if roles["velocity_initial"] is roles.get("velocity_final"):
+            del roles["velocity_initial"]
+    c = _step_of(roles)
+    return _completed(evaluator, roles, list(beside), c) if c else None
+
+
+def _other_velocity(
+    roles: Mapping[str, Line], is_either: bool, beside: Sequence[Line]
+) -> dict[str, Line]:
+    """The velocities of both ends of the rows, where the user named one; `is_either`: of any end.
+
+    If there is only one line for both, it is at the end.
+    """
+    speed, depth = roles["velocity_initial"], roles["depth"]
     starts = [o for o in beside if repeats(o, speed) > 0.5]
-    if "velocity" in given and "velocity_final" not in roles and starts:
-        roles |= {"velocity_initial": starts[0], "velocity_final": speed}
-        speed = starts[0]
-    elif "velocity" in given and "velocity_final" not in roles:
-        lag = grows_by(roles["depth"], speed, 1)[1] > grows_by(roles["depth"], speed, 0)[1]
-        if lag and _is_ahead(speed, roles["depth"]):
-            roles["velocity_final"] = roles.pop("velocity_initial")
-    for o in beside:
-        if (
-            "velocity_initial" in roles
-            and "velocity_final" not in roles
-            and repeats(speed, o) > 0.5
-        ):
-            roles["velocity_final"] = o
-    c, _ = grows_by(roles["depth"], speed, int("velocity_initial" not in roles), _LOOSE)
-    if not c:
-        steps = [(roles["depth"].values[j] - roles["depth"].values[i]) / speed.values[j]
-                 for i, j in _pairs(roles["depth"]) if speed.values.get(j)]  # fmt: skip
-        c = abs(median(steps)) if steps else 0.0
-    if not c:
-        return None
-    return _completed(evaluator, roles, list(beside), c)
+    if is_either and starts:
+        return {"velocity_initial": starts[0], "velocity_final": speed}
+    ends = [o for o in beside if repeats(speed, o) > 0.5]
+    lag = grows_by(depth, speed, 1)[1] > grows_by(depth, speed, 0)[1]
+    if is_either and lag and _is_ahead(speed, depth):
+        return {"velocity_final": speed}
+    return {"velocity_final": ends[0]} if ends else {}
+
+
+def _step_of(roles: Mapping[str, Line]) -> float:
+    """The constant by which the depth grows with the velocity; 0 if none can be told."""
+    depth = roles["depth"]
+    speed = roles.get("velocity_initial") or roles["velocity_final"]
+    c, _ = grows_by(depth, speed, int("velocity_initial" not in roles), _LOOSE)
+    if c:
+        return c
+    steps = [
+        (depth.values[j] - depth.values[i]) / speed.values[j]
+        for i, j in _pairs(depth)
+        if speed.values.get(j)
+    ]
+    return abs(median(steps)) if steps else 0.0
 
 
 def with_given(line: Line, name: str) -> Line:
