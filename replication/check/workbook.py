@@ -26,7 +26,7 @@ from replication.check.words import (
 )
 from replication.reading import place as named
 from replication.reading import quoted
-from spreadsheets.evaluate import Area, Error, Evaluator, parse, shape_key
+from spreadsheets.evaluate import Area, Error, Evaluator, Shape, parse, shape_key
 from spreadsheets.foreign import Book, Position, read
 
 _MOST_TABLES = 40
@@ -473,6 +473,23 @@ def _labelled_texts(evaluator: Evaluator) -> set[Position]:
     return found
 
 
+def _texts_for_numbers(evaluator: Evaluator) -> set[Position]:
+    """Return the typed texts that give a formula an error, where its like read numbers."""
+    alike: dict[Shape, list[Position]] = {}
+    for place, shape in evaluator.formulas.items():
+        alike.setdefault(shape, []).append(place)
+    values, typed = evaluator.values, set[Position]()
+    for shape, cells in alike.items():
+        good = [place for place in cells if type(values.get(place)) is float]
+        wrong = [place for place in cells if isinstance(values.get(place), Error)]
+        for ref in shape.references if good and wrong else ():
+            read = [ref.at(*place[1:]).corner for place in good]
+            if all(type(values.get(cell)) is float for cell in read):
+                texts = (ref.at(*place[1:]).corner for place in wrong)
+                typed |= {cell for cell in texts if type(values.get(cell)) is str}
+    return typed - evaluator.formulas.keys()
+
+
 def _labelled_blanks(evaluator: Evaluator) -> list[Position]:
     """Return the blank cells that formulas read and whose labels name an input."""
     read = {
@@ -507,7 +524,9 @@ def _without_numbers(evaluator: Evaluator) -> Iterator[Difference]:
                 says += ": no table is found there"
                 found = str(value) if isinstance(value, Error) else None
                 silent.setdefault(sheet, Difference(kind, (cells[0],), None, found, says, (8.0,)))
-    for place in sorted(_labelled_texts(evaluator)) if silent else ():
+    for place in (
+        sorted(_labelled_texts(evaluator) | _texts_for_numbers(evaluator)) if silent else ()
+    ):
         says = "it is a text, not a number: nothing that reads it can be checked"
         shown = repr(evaluator.values[place])
         # It comes before all faults of what reads it.
