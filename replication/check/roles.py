@@ -267,9 +267,19 @@ class _Roles:
             plain = is_plain(source.value) and source.value != 0
             if source.cell not in taken and len(roles) == 1 and not plain:
                 (role,) = roles
-                if (role not in cells or cells[role].cell is None) and role not in derived:
+                if role not in derived and self.gives_way(cells.get(role), source):
                     (derived if source.computed else cells)[role] = source
                     self.inputs.how[role] = "label"
+
+    def gives_way(self, known: Source | None, labelled: Source) -> bool:
+        """Whether a labelled cell may have a role: nothing has, or a number typed in its place.
+
+        A number in a formula that reads the cell, too, does not stand in its place.
+        """
+        if known is None or known.cell is not None:
+            return known is None
+        own = self.evaluator.areas(known.place) if known.place is not None else []
+        return labelled.cell is not None and not any(a.covers(labelled.cell) for a in own)
 
     def unread(self, place: Position) -> None:
         """Take a cell that nothing reads for the input that its label names, if none is known."""
