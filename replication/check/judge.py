@@ -403,6 +403,10 @@ def _wrong_unit(exam: Examination, inputs: Inputs, item: Item, stated: float) ->
     exam.add("unit", [source.place], shown, text, unit)
 
 
+_FOLLOWS = {"c = e": {"c = dt", "e = dt"}, "t = c": {"t = dt", "c = dt"}}
+"""Equations that follow from two others, which tell the column that is wrong."""
+
+
 def _not_converted(
     exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
 ) -> None:
@@ -415,6 +419,8 @@ def _not_converted(
         rest = rests[eq.name]
         if of_cell and eq.name in ("c = e", "t = c"):
             continue  # which follows: the column is named that has another step than the cell
+        if rests.keys() >= _FOLLOWS.get(eq.name, {""}):
+            continue
         cells, what = _written_in(exam, inputs, eq.name)
         if not accused.intersection(cells):
             accused |= set(cells)

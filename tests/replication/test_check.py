@@ -144,7 +144,8 @@ def test_faults_of_strangers_are_placed_as_often_as_the_page_says(tmp_path: Path
 
 def test_messages_are_those_that_a_person_has_read() -> None:
     """`python tests/foreign/messages.py > tests/foreign/messages.txt` writes them anew."""
-    assert "\n".join(messages.all_of_them()) == messages.KEPT.read_text("utf-8").rstrip("\n")
+    said = "\n".join(messages.all_of_them()).rstrip("\n")
+    assert said == messages.KEPT.read_text("utf-8").rstrip("\n")
 
 
 def test_json_has_the_promised_keys_and_every_digit(tmp_path: Path) -> None:
