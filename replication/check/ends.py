@@ -189,7 +189,9 @@ def judge_stop(exam: Examination, idle: Sequence[Position]) -> None:
         exam.ends = False  # what stands below a row that is blank says nothing
     elif below is None:
         _ends_early(exam, speeds, stop, len(rows))
-    elif below < max(speeds) and not _shows_stop(exam, below):
+    elif below < max(speeds) and (_shows_stop(exam, below) or _at_rest(exam, below)):
+        exam.stop_row = below
+    elif below < max(speeds):
         cells = [table.place(end[0], k) for k in sorted(table.rows) if k > below and k in speeds]
         last = speeds[max(speeds)]
         text = f"{OTHER_STOP}: the rows end at {last:.4g} m/s, after the stop at {stop:g} m/s"
@@ -267,6 +269,12 @@ def _stop_velocity(
                     return float(each)
     # In a unit that nobody states, the rows should end with the first velocity below zero.
     return 1.0 if exam.firm_speed else min([1.0, *(v for v in speeds.values() if v > 0)])
+
+
+def _at_rest(exam: Examination, below: int) -> bool:
+    """Whether the depth stays as it is after the row of the stop."""
+    depths = [exam.table.number("depth", k) for k in sorted(exam.table.rows) if k >= below]
+    return len(set(depths)) == 1
 
 
 def _shows_stop(exam: Examination, below: int) -> bool:

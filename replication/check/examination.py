@@ -47,7 +47,8 @@ class Examination:
     states that of the velocities. `inputs`
     are all inputs that are known, `read` all cells outside the table that it rests on. `corrected`
     is an input whose number is in another unit, with its right value. `right_depth` [m] is the
-    final depth of the report's scheme with the intended inputs.
+    final depth of the report's scheme with the intended inputs. `stop_row` is the row of the stop
+    where rows after it are spare or at rest.
     """
 
     table: Table
@@ -61,6 +62,7 @@ class Examination:
     stop_velocity: float = 1.0
     right_depth: float | None = None
     ends: bool = True
+    stop_row: int | None = None
     corrected: tuple[str, float] | None = None
     differences: list[Difference] = field(default_factory=list)
 
@@ -72,9 +74,14 @@ class Examination:
         return place[0] in {self.table.sheet, *(sheet for sheet, _, _ in self.read)}
 
     @property
+    def last(self) -> int:
+        """The number of the row in which the particle stops, or the last."""
+        return self.table.steps if self.stop_row is None else self.stop_row
+
+    @property
     def final_depth(self) -> float | None:
         """The depth in the last row [m]."""
-        value = self.table.number("depth", self.table.steps)
+        value = self.table.number("depth", self.last)
         return None if value is None else float(value * 10.0 ** self.units.get("depth", 0.0))
 
     def right_force(self, off: float | None = None) -> RightForce:

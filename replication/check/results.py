@@ -20,6 +20,8 @@ from spreadsheets.foreign import Position
 
 _NEAR_END = 3
 """A result that shows one of so many rows before the last was meant to show the last."""
+_LIST = 4
+"""So far left of a result the number of its row may stand."""
 _ANOTHER_ROW = re.compile(
     r"\d *(?:[nµu]?s|sec\w*)\b|"
     r"\b(?:steps?|schritte?|rows?|zeile|first|half|lost|previous|before|prior|penultimate)\b",
@@ -144,6 +146,10 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
         fault = _fault(result, found, label, unit, sure)
         if fault is not None:
             kind, expected, text = fault
+            if result.k != exam.last and (source := _shown_by(result, found, evaluator)):
+                wrong.add(result.place)
+                result = source
+                text = _taken_from(source)
             formula = evaluator.formulas[result.place]
             shown = written(formula.key, result.place[1], result.place[2])
             exam.add(kind, [result.place], expected, text, shown if kind == "odd formula" else unit)
@@ -160,8 +166,9 @@ def _fault(
     """What is wrong with a result; None if nothing."""
     table = result.exam.table
     named = result_of(label) if label else None
-    x, final = table.number("depth", result.k), table.number("depth", table.steps)
-    if result.k != table.steps and x != final:
+    last = result.exam.last
+    x, final = table.number("depth", result.k), table.number("depth", last)
+    if result.k != last and x != final:
         return _other_row(result, found, label, named)
     if result.over_diameter:
         wrong = result.power == 0 and named == "ratio" and not _DIAMETER.search(label)
@@ -188,17 +195,36 @@ def _other_row(
     result: Result, found: Sequence[Result], label: str, named: str | None
 ) -> Fault | None:
     """The fault of a result that shows another row than the last; None if it may well do so."""
-    exam, last = result.exam, result.exam.table.steps
+    exam, last = result.exam, result.exam.last
     same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
-    if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label):
+    if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label) or _says_row(result):
         return None
     close = last - _NEAR_END <= result.k < last or named in ("depth", "ratio")
     shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
     if not close or _ANOTHER_ROW.search(label) or (shows_last and named is None):
         return None
     cell = exam.table.place("depth", last)
-    text = f"{_what(result)} is taken from step {result.k} of the table; its last step is {last}"
-    return "odd formula", address(cell, cell[0] != result.place[0]), text
+    return "odd formula", address(cell, cell[0] != result.place[0]), _taken_from(result)
+
+
+def _taken_from(result: Result) -> str:
+    """Say from which row a result is taken."""
+    taken = f"{_what(result)} is taken from step {result.k} of the table"
+    return f"{taken}; its last step is {result.exam.last}"
+
+
+def _shown_by(result: Result, found: Sequence[Result], evaluator: Evaluator) -> Result | None:
+    """The result that another one takes its depth from; None if that reads the table itself."""
+    read = {a.corner for a in evaluator.areas(result.place) if a.cells == 1}
+    return next((r for r in found if r.place in read and r.k == result.k), None)
+
+
+def _says_row(result: Result) -> bool:
+    """Whether a number at the left of a result is that of its row, as in a list of some rows."""
+    sheet, row, column = result.place
+    values = result.exam.table.evaluator.values
+    beside = (values.get((sheet, row, column - d)) for d in range(1, _LIST + 1))
+    return any(type(value) is float and value == result.k for value in beside)
 
 
 def _other_unit(result: Result, unit: str) -> Fault | None:
@@ -260,7 +286,7 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
         assert exam.intended is not None
         whole = math.isclose(exam.intended.c, report_inputs()["step"][0], rel_tol=1e-6)
         if exam.ends and whole and (depth := exam.final_depth) is not None:
-            place = exam.table.place("depth", exam.table.steps)
+            place = exam.table.place("depth", exam.last)
             yield _judged(f"depth-{case}", place, Fraction(depth), False)
         for place, label, unit in _labelled(evaluator):
             beta, number = number_in(label)
@@ -294,8 +320,12 @@ def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]
             continue
         if result_of(text) not in ("depth", "ratio"):
             continue
-        for place in ((sheet, row, column + 1), (sheet, row + 1, column)):
+        for down, right in ((0, 1), (1, 0)):
+            place = (sheet, row + down, column + right)
+            after = evaluator.values.get((sheet, row + 2 * down, column + 2 * right))
             value = evaluator.values.get(place)
+            if type(value) is float and type(after) is float:
+                break  # a list of numbers is no result
             if type(value) is float and place not in evaluator.formulas:
                 label, unit, _ = label_of(place, evaluator)
                 if label == text:

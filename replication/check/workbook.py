@@ -192,7 +192,7 @@ def _collected(
             if not n.met and (n.typed or not _faulty(exams, n.place))
         ),
         *_uncalculated(evaluator),
-        *_without_numbers(evaluator, exams),
+        *_without_numbers(evaluator),
     ]
     # Tables may share the cell of an input or a result: only the first of them reports it.
     reported: set[tuple[Position, str]] = set()
@@ -505,7 +505,7 @@ def _labelled_blanks(evaluator: Evaluator) -> list[Position]:
     return blank[:_FEW]
 
 
-def _without_numbers(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Difference]:
+def _without_numbers(evaluator: Evaluator) -> Iterator[Difference]:
     """Report each sheet where the formulas below the head of a depth give no numbers.
 
     Report, too, the texts in cells of inputs, one of which such formulas may read.
@@ -529,7 +529,8 @@ def _without_numbers(evaluator: Evaluator, exams: Sequence[Examination]) -> Iter
     ):
         says = "it is a text, not a number: nothing that reads it can be checked"
         shown = repr(evaluator.values[place])
-        yield Difference("typed number", (place,), None, shown, says, exams[0].rank(place))
+        # It comes before all faults of what reads it.
+        yield Difference("typed number", (place,), None, shown, says, (-1.0,))
     yield from silent.values()
 
 
