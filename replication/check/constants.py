@@ -59,6 +59,8 @@ def typed_stops(exam: Examination, inputs: Inputs) -> None:
     probe, stop = exam.fitted.probe, inputs.cells.get("stop_velocity")
     if probe is None or stop is None or inputs.how.get("stop_velocity") != "unread":
         return
+    if stop.cell is not None and not exam.on_own_sheets(stop.cell):
+        return
     where = address(stop.cell, stop.cell[0] != exam.table.sheet) if stop.cell else stop.name
     speeds = [v for (role, _), v in probe.base.items() if role.startswith("velocity") and v > 0]
     for (role, offset), place in probe.state.items():

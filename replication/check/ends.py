@@ -252,6 +252,9 @@ def _stop_velocity(
     """
     last, before = speeds[max(speeds)], speeds.get(max(speeds) - 1, math.inf)
     labelled = exam.inputs.get("stop_velocity")
+    own = labelled is not None and (labelled.place is None or exam.on_own_sheets(labelled.place))
+    if last < 1.0 <= before and exam.firm_speed and not own:
+        return 1.0
     if labelled is not None and exam.firm_speed:
         return labelled.si
     if last < 1.0 <= before:

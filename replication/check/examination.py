@@ -66,6 +66,13 @@ class Examination:
     corrected: tuple[str, float] | None = None
     differences: list[Difference] = field(default_factory=list)
 
+    def on_own_sheets(self, place: Position) -> bool:
+        """Whether a cell is on the sheet of the table, or on one from which it reads.
+
+        A label elsewhere may speak of another table.
+        """
+        return place[0] in {self.table.sheet, *(sheet for sheet, _, _ in self.read)}
+
     @property
     def last(self) -> int:
         """The number of the row in which the particle stops, or the last."""

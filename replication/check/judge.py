@@ -403,20 +403,18 @@ def _wrong_unit(exam: Examination, inputs: Inputs, item: Item, stated: float) ->
     exam.add("unit", [source.place], shown, text, unit)
 
 
-_FOLLOWS = {"c = e": {"c = dt", "e = dt"}, "t = c": {"t = dt", "c = dt"}}
-"""Equations that follow from two others, which tell the column that is wrong."""
-
-
 def _not_converted(
     exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
 ) -> None:
     """Report equations that a power of ten breaks, where no single statement mends all of them."""
     accused = {cell for d in exam.differences for cell in d.cells}
-    names = {eq.name for eq in found}
-    for eq in found:
-        rest = eq.residual(inputs.powers)
-        if abs(rest) < _VAGUE * slack or names >= _FOLLOWS.get(eq.name, {""}):
-            continue
+    rests = {eq.name: eq.residual(inputs.powers) for eq in found}
+    wrong = [eq for eq in found if abs(rests[eq.name]) >= _VAGUE * slack]
+    of_cell = any(eq.name in ("c = dt", "e = dt", "t = dt") for eq in wrong)
+    for eq in wrong:
+        rest = rests[eq.name]
+        if of_cell and eq.name in ("c = e", "t = c"):
+            continue  # which follows: the column is named that has another step than the cell
         cells, what = _written_in(exam, inputs, eq.name)
         if not accused.intersection(cells):
             accused |= set(cells)
