@@ -5,11 +5,12 @@ from collections.abc import Mapping, Sequence
 
 from replication.check.cells import formula_at
 from replication.check.examination import Examination
+from replication.check.fit import Probe
 from replication.check.responses import FAMILIES, Source, is_plain
 from replication.check.roles import Inputs
 from replication.check.table import address
 from replication.check.words import input_roles, title
-from spreadsheets.evaluate import Scalar
+from spreadsheets.evaluate import Error, LiteralKey, Scalar
 from spreadsheets.foreign import Position
 
 _TESTED_BY = {
@@ -54,7 +55,7 @@ def typed_stops(exam: Examination, inputs: Inputs) -> None:
     """Report a stop velocity that is typed into formulas, though a cell that nothing reads has it.
 
     It is a number that ends the rows: with a larger one, just above a velocity of the row, the
-    formula gives no number.
+    formula gives no number. An error, as that of too large a power, is no end.
     """
     probe, stop = exam.fitted.probe, inputs.cells.get("stop_velocity")
     if probe is None or stop is None or inputs.how.get("stop_velocity") != "unread":
@@ -68,16 +69,32 @@ def typed_stops(exam: Examination, inputs: Inputs) -> None:
         if offset or role == "time" or shape is None:
             continue
         for index, value in enumerate(shape.literals):
-            key = (*place, index)
-            if value > 0 and any(
-                math.isfinite(probe.value(place, {}, {}, {key: 0.99 * v}))
-                and math.isnan(probe.value(place, {}, {}, {key: 1.01 * v}))
-                for v in speeds
-            ):
+            if value > 0 and any(_ends_below(probe, place, (*place, index), v) for v in speeds):
                 cells = _cells_with(exam, place)
                 text = f"{title('stop_velocity')} is typed as {value:.10g}, where {where} should "
                 exam.add("typed constant", cells, where, f"{text}be read")
                 break
+
+
+def _ends_below(probe: Probe, place: Position, key: LiteralKey, speed: float) -> bool:
+    """Whether a number typed into a formula ends the rows at velocities below it.
+
+    It must do so at half the velocity, too: a power that overflows does not.
+    """
+    speeds = {state: v for state, v in probe.base.items() if state[0].startswith("velocity")}
+    for part in (1.0, 0.5):
+        state = {name: part * v for name, v in speeds.items()}
+        below, above = (
+            probe.scalar(place, state, {}, {key: times * part * speed}) for times in (0.99, 1.01)
+        )
+        if type(below) is not float or not _is_end(above):
+            return False
+    return True
+
+
+def _is_end(value: Scalar) -> bool:
+    """Whether a formula that gives this ends the rows: a text, a blank, or #N/A for a chart."""
+    return value == "#N/A" or not isinstance(value, Error | float)
 
 
 def _cells_with(exam: Examination, place: Position) -> list[Position]:

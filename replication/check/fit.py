@@ -63,16 +63,23 @@ class Probe:
             self._cones[place] = self.evaluator.cone([place], self.stop - {place})
         return self._cones[place]
 
+    def scalar(
+        self, place: Position, state: Mapping[State, float],
+        cells: Mapping[Position, Scalar], literals: Mapping[LiteralKey, float],
+    ) -> Scalar:  # fmt: skip
+        """What a cell gives in a state: a number, a text, or an error."""
+        replaced: dict[Position, Scalar] = {
+            p: state.get(name, self.base[name]) for name, p in self.state.items() if p != place
+        }
+        replaced |= cells
+        return self.evaluator.value(place, replaced, literals, self.cone(place))
+
     def value(
         self, place: Position, state: Mapping[State, float],
         cells: Mapping[Position, Scalar], literals: Mapping[LiteralKey, float],
     ) -> float:  # fmt: skip
         """The number of a cell in a state; NaN if it is none."""
-        replaced: dict[Position, Scalar] = {
-            p: state.get(name, self.base[name]) for name, p in self.state.items() if p != place
-        }
-        replaced |= cells
-        value = self.evaluator.value(place, replaced, literals, self.cone(place))
+        value = self.scalar(place, state, cells, literals)
         return value if type(value) is float else math.nan
 
     def answers(self, place: Position) -> list[State]:
