@@ -169,7 +169,9 @@ def _blank_rows(exam: Examination) -> None:
             after += 1
         gap = {line.place(i) for line in usual for i in range(index + 1, after)}
         goes_on = [o for o in usual if evaluator.formulas.get(o.place(after)) is o.usual]
-        if any(_reads_one(evaluator, line.place(after), gap) for line in goes_on):
+        moving = [o for o in goes_on if evaluator.values.get(o.place(after)) not in ("", "#N/A")]
+        reads = [o for o in moving if _reads_one(evaluator, o.place(after), gap)]
+        if reads and len(goes_on) == len(usual):  # not a last velocity by itself
             cells = sorted(line.place(i) for i in range(index + 1, after) for line in usual)
             text = f"{BLANK_ROW}, though the formulas below it read it"
             rank = (1, k + 0.5, 0)
