@@ -94,20 +94,40 @@ _LONGEST = 40
 
 
 @cache
-def _unit(unit: str) -> tuple[Fraction, Dimension]:
-    """Return a unit's factor to SI and its dimension. Raises UnitError for an unknown unit."""
+def _factors(unit: str) -> list[tuple[str, int]] | None:
+    """The names of known units in a product, each with its power; None if one is unknown."""
     text = unit.translate(_SAME)
     matches = list(_FACTOR.finditer(text[:_LONGEST]))
     is_complete = matches and "".join(match[0] for match in matches) == text
     if not is_complete or not all(match["name"] in _UNITS for match in matches):
+        return None
+    return [
+        (match["name"], int(match["power"] or 1) * (-1 if match["over"] == "/" else 1))
+        for match in matches
+    ]
+
+
+@cache
+def _unit(unit: str) -> tuple[Fraction, Dimension]:
+    """Return a unit's factor to SI and its dimension. Raises UnitError for an unknown unit."""
+    factors = _factors(unit)
+    if factors is None:
         raise UnitError(f"unknown unit {unit[:_LONGEST]!r}: {_advice(unit)}")
     factor, dimension = Fraction(1), Dimension()
-    for match in matches:
-        power = int(match["power"] or 1) * (-1 if match["over"] == "/" else 1)
-        base, base_dimension = _UNITS[match["name"]]
+    for name, power in factors:
+        base, base_dimension = _UNITS[name]
         factor *= base**power
         dimension *= base_dimension**power
     return factor, dimension
+
+
+def is_known(unit: str) -> bool:
+    """Return whether a text is a unit that is known here.
+
+    >>> is_known("m/s"), is_known("Time")
+    (True, False)
+    """
+    return _factors(unit) is not None
 
 
 def _advice(unit: str) -> str:

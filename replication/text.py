@@ -25,8 +25,9 @@ def json_text(record: Any) -> str:
     import msgspec
 
     compact = json.dumps(msgspec.to_builtins(record), ensure_ascii=False, allow_nan=False)
-    # A file name may hold lone surrogates, which UTF-8 cannot encode but JSON can escape.
-    return msgspec.json.format(compact.encode(errors="backslashreplace"), indent=2).decode() + "\n"
+    # A file name that is no UTF-8 holds lone surrogates, which are no text: they are spelled out.
+    spelled = re.sub("[\ud800-\udfff]", lambda match: f"\\\\u{ord(match[0]):04x}", compact)
+    return msgspec.json.format(spelled.encode(), indent=2).decode() + "\n"
 
 
 def rows_csv(rows: Sequence[Mapping[str, Any]]) -> str:

@@ -1,33 +1,44 @@
 """Read the cells of somebody else's workbook: formulas and stored values, within bounds.
 
-Every file is treated as hostile. It is read as a stream by a parser that refuses document types
-(hence all entities) and counts the bytes that it unpacks; nothing in the file is run, looked up or
-followed. openpyxl does not read it: openpyxl fills merged and linked ranges cell by cell, so that a
-file of a kilobyte keeps it busy for hours, and it gives either formulas or stored values, not both.
+Every file is treated as hostile. It is read as a stream (`package.py` unpacks and parses it), what
+it holds is counted before it is kept, and nothing in it is run, looked up or followed. openpyxl
+does not read it: openpyxl fills merged and linked ranges cell by cell, so that a file of a kilobyte
+keeps it busy for hours, and it gives either formulas or stored values, not both.
 """
 
 import math
 import re
-import shutil
-import subprocess
 import zipfile
-from collections import deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from datetime import datetime
 from functools import cached_property
 from itertools import product
-from pathlib import Path, PurePosixPath
-from posixpath import join, normpath
+from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any, NamedTuple
+from typing import NamedTuple
 from xml.etree import ElementTree as ET
 
 from openpyxl.formula.tokenizer import TokenizerError
 from openpyxl.formula.translate import Translator, TranslatorError
-from openpyxl.utils.cell import coordinate_to_tuple, get_column_letter, range_boundaries
+from openpyxl.utils.cell import (
+    column_index_from_string,
+    coordinate_to_tuple,
+    get_column_letter,
+    range_boundaries,
+)
 
-from spreadsheets import separated
-from spreadsheets.engines import address, office, run_program
+from spreadsheets.conversion import FORMATS, converted
+from spreadsheets.engines import address
+from spreadsheets.package import (
+    Package,
+    attribute,
+    damaged,
+    name_of,
+    open_archive,
+    too_much,
+)
+from spreadsheets.package import WorkbookError as WorkbookError  # for those who call `read`
 from spreadsheets.safely import UNREADABLE
 
 Position = tuple[str, int, int]
@@ -36,54 +47,42 @@ Position = tuple[str, int, int]
 Value = float | str | bool
 
 MAX_FILE = 64 * 2**20
-MAX_UNPACKED = 192 * 2**20
-"""Bytes of a file, packed and unpacked; the largest sheet within the limits has some 40 MB."""
-MAX_ENTRIES = 10_000
-MAX_CELLS = 400_000
+"""Bytes of a file."""
+MAX_CELLS = 250_000
 MAX_FORMULAS = 60_000
 """A sheet of the scheme has some 800 cells; with a step of 1 ps it has 160,000."""
-MAX_ELEMENTS = 4_000_000
-"""XML elements of a part of the file: a sheet has at most four for a cell with a formula."""
-MAX_DEPTH = 100
-"""Levels of XML elements within each other: a sheet has six."""
+MAX_FORMULA_TEXT = 4_000_000
+"""Characters of all formulas together: a formula of the scheme has some forty."""
 LAST_ROW, LAST_COLUMN = 1_048_576, 16_384
 MAX_TEXT = 32_767
 """Characters that a cell may have in Excel."""
 MAX_FORMULA = 8_192
 """Characters that a formula may have in Excel."""
-CONVERT_LIMIT_S = 120
-_MEMORY = 4 * 2**30
-"""Bytes that LibreOffice may address: four gigabytes; it needs less than two to start."""
+_MAX_NUMBER = 1_000
+"""Characters of a number: written out, the largest double has 309 digits."""
 _ODS_RESOLUTION = 1e-20
 """LibreOffice writes numbers below 1e-4 with 20 decimals: a mass in kg has some ten digits."""
 _OLE_START = bytes.fromhex("D0CF11E0A1B11AE1")
 """How .xls files begin, and encrypted workbooks of every kind."""
+_EPOCHS = {False: datetime(1899, 12, 30), True: datetime(1904, 1, 1)}
+"""Day 0 of dates as numbers; the first is right from March 1900 on, as Excel counts."""
 
 _LIMITS = f"this program reads up to {MAX_CELLS:,} cells and {MAX_FORMULAS:,} formulas"
-_TOO_MUCH = f"is refused: it unpacks to too many bytes; {_LIMITS}"
 _WANTED = "give an .xlsx or .xlsm file without a password"
-
-
-class WorkbookError(ValueError):
-    """A file is refused or cannot be read as a workbook. The message is one line."""
-
-
-def _damaged(what: str) -> WorkbookError:
-    """An error for a file that breaks the rules of its format; `what` says how and where."""
-    return WorkbookError(f"is damaged: {what}; a spreadsheet program may be able to repair it")
 
 
 class Cell(NamedTuple):
     """The formula of a cell, with its "=", and its stored value; either is None if absent.
 
-    `error`: the value is an error, not a text that spells one. `array`: the formula is an array
-    formula, which the cell shares with others.
+    `error`: the value is an error, not a text that spells one. `array`: the first row and column
+    and the last ones of the cells that an array formula, or a what-if table, fills together; the
+    formula of a what-if table is =TABLE(row input, column input), as Excel shows it.
     """
 
     formula: str | None
     value: Value | None
     error: bool = False
-    array: bool = False
+    array: tuple[int, int, int, int] | None = None
 
 
 @dataclass(frozen=True)
@@ -92,6 +91,8 @@ class Book:
 
     `columns` maps the columns of tables, written as in formulas, such as "Steps[x]", to their
     cells. `notes` tell the user what is left out. Stored numbers are exact to within `resolution`.
+    `hidden` has the hidden rows of each sheet. `date1904`: day 0 of its dates is 1 January 1904.
+    `as_displayed`: its numbers are rounded as they are shown.
     """
 
     path: Path
@@ -100,6 +101,9 @@ class Book:
     notes: tuple[str, ...] = ()
     resolution: float = 0.0
     columns: Mapping[str, str] = field(default_factory=dict)
+    hidden: Mapping[str, frozenset[int]] = field(default_factory=dict)
+    date1904: bool = False
+    as_displayed: bool = False
 
     def __getitem__(self, position: Position) -> Cell:
         sheet, row, column = position
@@ -136,7 +140,6 @@ _BLANK = Cell(None, None)
 def read(path: Path) -> Book:
     """Read an .xlsx or .xlsm file; an .xls, .xlsb or .ods file by way of LibreOffice; or a .csv.
 
-    A text file of separated values (`separated`) is one sheet, "CSV", whose rows are its lines.
 
     Raises WorkbookError, naming the file, if it is not a workbook, is damaged, or exceeds a limit
     of this module; OSError if it cannot be opened.
@@ -156,166 +159,122 @@ def _read(path: Path) -> Book:
     if path.stat().st_size > MAX_FILE:
         raise WorkbookError(f"has more than {MAX_FILE >> 20} MB; {_LIMITS}")
     if _is_xlsx(path):
-        with zipfile.ZipFile(path) as archive:
-            return _Reader(archive, path).book()
-    if path.suffix.lower() in separated.SUFFIXES:
-        return _of_text(path)
-    if path.suffix.lower() not in (".xls", ".xlsb", ".ods"):
+        with open_archive(path) as archive:
+            return _Reader(Package(archive), path).book()
+    if path.suffix.lower() not in FORMATS:
         with path.open("rb") as file:
             start = file.read(len(_OLE_START))
         fault = "this is not a workbook"
         if start == _OLE_START:
             fault = "has a password, or is an .xls file by another name"
         elif start.startswith(b"PK") and not zipfile.is_zipfile(path):
-            raise _damaged("its end is cut off or changed")
+            raise damaged("its end is cut off or changed")
         raise WorkbookError(f"{fault}; {_WANTED}")
     with (
         TemporaryDirectory(prefix="coldspray-") as folder,
-        zipfile.ZipFile(_converted(path, Path(folder))) as archive,
+        open_archive(converted(path, Path(folder), MAX_CELLS)) as archive,
     ):
-        book = _Reader(archive, path).book()
+        book = _Reader(Package(archive), path).book()
     note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"
     resolution = _ODS_RESOLUTION if path.suffix.lower() == ".ods" else 0.0
     return replace(book, notes=(note, *book.notes), resolution=resolution)
 
 
-def _of_text(path: Path) -> Book:
-    """Return the one sheet of a text file of separated values."""
-    try:
-        values = separated.cells_of(path.read_bytes(), MAX_CELLS)
-    except ValueError as error:
-        raise WorkbookError(str(error)) from error
-    return Book(path, {"CSV": {place: Cell(None, value) for place, value in values.items()}}, {})
-
-
 def _is_xlsx(path: Path) -> bool:
     try:
-        with zipfile.ZipFile(path) as archive:
-            return any(name.endswith("workbook.xml") for name in archive.namelist()[:MAX_ENTRIES])
+        with open_archive(path) as archive:
+            return any(name.lower().endswith("workbook.xml") for name in archive.namelist())
+    except WorkbookError:
+        raise
     except UNREADABLE:
         return False
-
-
-def _converted(path: Path, folder: Path) -> Path:
-    """Save a workbook as .xlsx with LibreOffice, within bounds of time, memory and disk.
-
-    It runs in a new profile, where macros are off.
-    """
-    if (soffice := office()) is None:
-        ways = "by way of LibreOffice, which is not installed; save it as .xlsx"
-        raise WorkbookError(f"{path.suffix} files are read {ways}")
-    if zipfile.is_zipfile(path):
-        with zipfile.ZipFile(path) as archive:  # LibreOffice has no limit on what it unpacks
-            reader = _Reader(archive, path)
-            for part in reader.parts:
-                deque(reader.chunks(part), maxlen=0)
-    source = shutil.copyfile(path, folder / f"workbook{path.suffix.lower()}")
-    command = [
-        soffice, "--headless", "--norestore",
-        f"-env:UserInstallation={(folder / 'profile').as_uri()}",
-        "--convert-to", "xlsx", "--outdir", str(folder / "out"), str(source),
-    ]  # fmt: skip
-    for _ in range(2):  # the first run in a new profile may only ask to be started again
-        try:
-            run_program(command, CONVERT_LIMIT_S, _limited)
-        except subprocess.TimeoutExpired as error:
-            reason = f"LibreOffice did not open it within {CONVERT_LIMIT_S} s"
-            raise WorkbookError(reason) from error
-        if (folder / "out" / "workbook.xlsx").is_file():
-            return folder / "out" / "workbook.xlsx"
-    raise WorkbookError("LibreOffice cannot open it")
-
-
-def _limited() -> None:
-    """Limit the memory and the size of files of the process that calls this."""
-    import resource
-
-    resource.setrlimit(resource.RLIMIT_AS, (_MEMORY, _MEMORY))
-    resource.setrlimit(resource.RLIMIT_FSIZE, (MAX_FILE, MAX_FILE))
 
 
 _Tables = list[tuple[str, dict[str, int]]]
 """The tables of a sheet: the name of each in small letters, and its columns by their heads."""
 
 _THIS_ROW = re.compile(
-    r"(?P<table>[^\W\d][\w.]*)?\[(?:\[#This Row\],\s*\[(?P<long>(?:[^\[\]']|'.)+)\]"
-    r"|@\[?(?P<short>(?:[^\[\]']|'.)+)\]?)\]"
+    r"(?:(?<![\w.])(?P<table>[^\W\d][\w.]*+))?"
+    r"\[(?:\[#This Row\],\s*\[(?P<long>(?:[^\[\]']|'.)++)\]"
+    r"|@\[?(?P<short>(?:[^\[\]']|'.)++)\]?)\]"
 )
 """How a formula refers to a cell in its own row of a table: Steps[@x], [[#This Row],[x]]."""
 
+_ESCAPED = re.compile("_x([0-9A-Fa-f]{4})_")
+"""How a text of the file holds a character that XML does not allow, or changes: a line break."""
+
 _NOTES = {
-    "vbaProject.bin": "it holds macros: they are not run",
-    "/externalLinks/": "it has links to other files: they are not followed",
+    "vbaproject.bin": "it holds macros: they are not run",
+    "/externallinks/": "it has links to other files: they are not followed",
 }
 
 
 class _Reader:
-    """Read the parts of one file, within one budget of bytes, cells and formulas."""
+    """Read the parts of one file, within one budget of cells and formulas."""
 
-    def __init__(self, archive: zipfile.ZipFile, path: Path) -> None:
-        if len(archive.namelist()) > MAX_ENTRIES:
-            raise WorkbookError(f"is refused: it holds more than {MAX_ENTRIES:,} parts")
-        if any(part.flag_bits & 1 for part in archive.infolist()):
-            raise WorkbookError(f"has parts with a password; {_WANTED}")
-        self.archive, self.path = archive, path
-        self.parts = {name.lstrip("/"): name for name in archive.namelist()}
-        self.left = MAX_UNPACKED
-        self.cells = self.formulas = self.filled = 0
+    def __init__(self, package: Package, path: Path) -> None:
+        self.package, self.path = package, path
+        self.cells = self.formulas = self.characters = self.filled = 0
         self.columns: dict[str, str] = {}
+        self.date1904 = False
 
     def book(self) -> Book:
         """Read the whole workbook."""
-        mains = (to for kind, to in self.relations("").values() if kind == "officeDocument")
+        package = self.package
+        mains = (to for kind, to in package.relations("").values() if kind == "officeDocument")
         main = next(mains, "xl/workbook.xml")
-        tree, related = self.tree(main), self.relations(main)
+        tree, related = package.tree(main), package.relations(main)
+        notes = [note for part, note in _NOTES.items() if any(part in p for p in package.parts)]
+        self.date1904 = _is_set(tree.find("{*}workbookPr"), "date1904")
+        as_displayed = not _is_set(tree.find("{*}calcPr"), "fullPrecision", "1")
+        if as_displayed:
+            notes.append("precision as displayed is set: its numbers are rounded as they are shown")
         strings = next((to for kind, to in related.values() if kind == "sharedStrings"), None)
         texts: list[str] = []
         if strings is not None:
-            self.tree(strings, _Tree(si=lambda string: texts.append(_text(string))))
+            package.stream(strings, si=lambda string: texts.append(_text(string)))
         sheets: dict[str, dict[tuple[int, int], Cell]] = {}
+        hidden: dict[str, frozenset[int]] = {}
         listed = tree.findall("{*}sheets/{*}sheet")
-        names = [_attribute(sheet, "name", main) for sheet in listed]
+        names = [attribute(sheet, "name", main) for sheet in listed]
         if len({name.upper() for name in names}) < len(names):
-            raise _damaged("two of its sheets have the same name")
-        for sheet, name in zip(listed, names, strict=True):
-            identity = (value for key, value in sheet.attrib.items() if key.endswith("}id"))
+            raise damaged("two of its sheets have the same name")
+        for element, name in zip(listed, names, strict=True):
+            identity = (value for key, value in element.attrib.items() if key.endswith("}id"))
             kind, part = related.get(next(identity, ""), ("", ""))
             if not part:
-                raise _damaged(f"its sheet {name!r} has no part of the file")
+                raise damaged(f"its sheet {name!r} has no part of the file")
             if kind == "worksheet":
-                cells = _Sheet(self, name, texts, self.tables(name, part))
-                self.tree(part, _Tree(row=cells.take_row))
-                sheets[name] = cells.filled()
+                sheet = _Sheet(self, name, texts, self.tables(name, part))
+                package.stream(part, row=sheet.take_row)
+                sheets[name], hidden[name] = sheet.complete(), frozenset(sheet.hidden)
         if not sheets:
             raise WorkbookError("has no worksheet")
-        notes = [note for part, note in _NOTES.items() if any(part in name for name in self.parts)]
-        meanings: dict[str, str] = {}
-        for entry in tree.iterfind("{*}definedNames/{*}definedName"):
-            name, scope = _attribute(entry, "name", main), entry.get("localSheetId")
-            if entry.text and not name.startswith("_xlnm."):
-                if scope is not None:  # a name of one sheet is written 'Sheet'!name
-                    number = _whole_number(scope, f"the sheet of the name {name!r}", len(names))
-                    name = f"'{names[number]}'!{name}"
-                meanings[name] = entry.text[:MAX_FORMULA]
-        return Book(self.path, sheets, meanings, tuple(notes), columns=self.columns)
+        meanings = _names(tree, names, main)
+        return Book(
+            self.path, sheets, meanings, tuple(notes), columns=self.columns, hidden=hidden,
+            date1904=self.date1904, as_displayed=as_displayed,
+        )  # fmt: skip
 
     def tables(self, sheet: str, sheet_part: str) -> _Tables:
         """Read the tables of a sheet."""
         tables, quoted = [], sheet.replace("'", "''")
-        for kind, part in self.relations(sheet_part).values():
-            if kind != "table" or part not in self.parts:
+        for kind, part in self.package.relations(sheet_part).values():
+            if kind != "table" or part not in self.package:
                 continue
-            tree = self.tree(part)
-            name, ref = (_attribute(tree, key, part) for key in ("displayName", "ref"))
+            tree = self.package.tree(part)
+            name, ref = (attribute(tree, key, part) for key in ("displayName", "ref"))
             left, top, _, bottom = _corners(ref, f"the table {name!r}")
             heads, totals = (
                 _whole_number(tree.get(key, default), f"{key} of {name!r}")
                 for key, default in (("headerRowCount", "1"), ("totalsRowCount", "0"))
             )
             columns = {
-                _attribute(column, "name", part): number
+                _unescaped(attribute(column, "name", part)): number
                 for number, column in enumerate(tree.iterfind("{*}tableColumns/*"), left)
             }
+            if max(columns.values(), default=1) > LAST_COLUMN:
+                raise damaged(f"the table {name[:60]!r} is wider than a sheet")
             tables.append((name.lower(), columns))
             for head, number in columns.items():
                 escaped, letter = re.sub(r"[\[\]#'@]", r"'\g<0>", head), get_column_letter(number)
@@ -323,110 +282,72 @@ class _Reader:
                 self.columns[f"{name}[{escaped}]"] = cells
         return tables
 
-    def relations(self, part: str) -> dict[str, tuple[str, str]]:
-        """The parts that a part refers to, each with its kind, by the identity of the reference."""
-        path = PurePosixPath(part)
-        rels = f"{path.parent}/_rels/{path.name}.rels".removeprefix("./")
-        if rels not in self.parts:
-            return {}
-        related = {}
-        for relation in self.tree(rels):
-            if relation.get("TargetMode") != "External":
-                keys = ("Id", "Type", "Target")
-                identity, kind, target = (_attribute(relation, key, rels) for key in keys)
-                # A target may start at the root with "/", or go up with "..".
-                part_name = normpath(join("/", path.parent, target)).lstrip("/")
-                related[identity] = kind.rpartition("/")[2], part_name
-        return related
 
-    def tree(self, part: str, tree: "_Tree | None" = None) -> ET.Element:
-        """Parse a part as XML, into this tree if one is given."""
-        if part not in self.parts:
-            raise _damaged(f"it refers to its part {part}, which is not there")
-        parser = ET.XMLParser(target=tree or _Tree())
-        try:
-            for chunk in self.chunks(part):
-                parser.feed(chunk)
-            return parser.close()
-        except WorkbookError:
-            raise
-        except (ET.ParseError, LookupError, ValueError) as error:  # the last two for an encoding
-            raise _damaged(f"its part {part} is not valid XML: {error}") from error
-
-    def chunks(self, part: str) -> Iterator[bytes]:
-        """Unpack a part, counting the bytes that come out, not those that the archive declares."""
-        try:
-            with self.archive.open(self.parts[part]) as stream:
-                while chunk := stream.read(2**16):
-                    self.left -= len(chunk)
-                    if self.left < 0:
-                        raise WorkbookError(_TOO_MUCH)
-                    yield chunk
-        except WorkbookError:
-            raise
-        except UNREADABLE as error:
-            raise _damaged(f"its part {part} cannot be unpacked: {error}") from error
+def _names(tree: ET.Element, sheets: list[str], part: str) -> dict[str, str]:
+    """The defined names, with what each stands for; one of a single sheet is 'Sheet'!name."""
+    meanings: dict[str, str] = {}
+    for entry in tree.iterfind("{*}definedNames/{*}definedName"):
+        name, scope = attribute(entry, "name", part), entry.get("localSheetId")
+        if entry.text and not name.startswith("_xlnm."):
+            if scope is not None:
+                number = _whole_number(scope, f"the sheet of the name {name!r}", len(sheets))
+                name = f"'{sheets[number]}'!{name}"
+            meanings[name] = entry.text[:MAX_FORMULA]
+    return meanings
 
 
-class _Tree(ET.TreeBuilder):
-    """The XML tree of a part; at its end, an element with a taker is given to it and emptied."""
-
-    def __init__(self, **takers: Callable[[ET.Element], object]) -> None:
-        super().__init__()
-        self.takers, self.elements, self.depth = takers, 0, 0
-
-    def doctype(self, *_: object) -> None:
-        raise WorkbookError("is refused: its XML declares a document type, which no workbook needs")
-
-    def start(self, tag: Any, attributes: Any) -> ET.Element:
-        self.elements += 1
-        self.depth += 1
-        if self.elements > MAX_ELEMENTS:
-            raise WorkbookError(_TOO_MUCH)
-        if self.depth > MAX_DEPTH:
-            raise _damaged(f"its XML is nested more than {MAX_DEPTH} levels deep")
-        return super().start(tag, attributes)
-
-    def end(self, tag: Any) -> ET.Element:
-        self.depth -= 1
-        element = super().end(tag)
-        if taker := self.takers.get(_tag(element)):
-            taker(element)
-            element.clear()
-        return element
-
-
-def _tag(element: ET.Element) -> str:
-    """The name of an element without its namespace."""
-    return element.tag.rpartition("}")[2]
-
-
-def _attribute(element: ET.Element, attribute: str, part: str) -> str:
-    """An attribute of an element, which it must have."""
-    if (value := element.get(attribute)) is None:
-        raise _damaged(f"a <{_tag(element)}> of its part {part} has no {attribute!r}")
-    return value
+def _is_set(element: ET.Element | None, key: str, default: str = "0") -> bool:
+    """Whether an attribute of an element is true; `default` holds where it is absent."""
+    text = default if element is None else element.get(key, default)
+    return text.strip().lower() in ("1", "true", "on")
 
 
 def _whole_number(text: str, what: str, below: int = LAST_ROW + 1) -> int:
     """Read a whole number from 0 to less than `below`; `what` says what it is, for the message."""
     if not (re.fullmatch(r"\s*\d{1,9}\s*", text) and int(text) < below):
-        raise _damaged(f"{what} is {text[:20]!r} and must be a whole number below {below}")
+        raise damaged(f"{what} is {text[:20]!r} and must be a whole number below {below}")
     return int(text)
 
 
 def _corners(cells: str, what: str) -> tuple[int, ...]:
     """The first column and row, and the last ones, of the range in which `what` stands."""
     try:
-        return tuple(end or 1 for end in range_boundaries(cells))
+        return tuple(end or 1 for end in range_boundaries(cells[:40]))
     except ValueError as error:
-        raise _damaged(f"{what} stands in {cells[:20]!r}, which is no range of cells") from error
+        raise damaged(f"{what} stands in {cells[:20]!r}, which is no range of cells") from error
 
 
 def _text(string: ET.Element) -> str:
     """The text of a string in one or several pieces, without phonetic guides."""
-    pieces = (piece for part in string if _tag(part) != "rPh" for piece in part.iter())
-    return "".join(piece.text or "" for piece in pieces if _tag(piece) == "t")[:MAX_TEXT]
+    pieces = (piece for part in string if name_of(part) != "rPh" for piece in part.iter())
+    return _unescaped("".join(piece.text or "" for piece in pieces if name_of(piece) == "t"))
+
+
+def _unescaped(text: str) -> str:
+    r"""A text of the file, up to the length that Excel allows, with the characters it stands for.
+
+    >>> _unescaped("v_x000A_[m/s]"), _unescaped("_x005F_x000A_"), _unescaped("_xD800_")
+    ('v\n[m/s]', '_x000A_', '_xD800_')
+    """
+
+    def character(escape: re.Match[str]) -> str:
+        code = int(escape[1], 16)
+        return escape[0] if 0xD800 <= code <= 0xDFFF else chr(code)  # half a character
+
+    return _ESCAPED.sub(character, text)[:MAX_TEXT] if "_x" in text else text[:MAX_TEXT]
+
+
+class _Translator(Translator):
+    """Fill a formula into other cells; openpyxl's own takes a name such as Yld1 for a cell."""
+
+    @classmethod
+    def translate_range(cls, range_str: str, rdelta: int, cdelta: int) -> str:
+        _, cell = cls.strip_ws_name(range_str)  # type: ignore[no-untyped-call]
+        match = cls.CELL_REF_RE.match(cell)
+        if match and column_index_from_string(match[1].lstrip("$")) > LAST_COLUMN:
+            return range_str
+        moved = super().translate_range(range_str, rdelta, cdelta)  # type: ignore[no-untyped-call]
+        return str(moved)
 
 
 class _Sheet:
@@ -435,7 +356,10 @@ class _Sheet:
     def __init__(self, reader: _Reader, name: str, texts: list[str], tables: _Tables) -> None:
         self.reader, self.name, self.texts, self.tables = reader, name, texts, tables
         self.cells: dict[tuple[int, int], Cell] = {}
+        self.hidden: set[int] = set()
         self.masters: dict[str, tuple[str, str]] = {}
+        self.translators: dict[str, _Translator] = {}
+        self.waiting: dict[str, list[tuple[int, int]]] = {}
         self.arrays: list[tuple[tuple[int, ...], str]] = []
         self.row = self.column = 0
 
@@ -448,6 +372,8 @@ class _Sheet:
         """Read the cells of a row."""
         number = row.get("r", str(self.row + 1))
         self.row, self.column = _whole_number(number, f"the number of a row of {self.name!r}"), 0
+        if _is_set(row, "hidden"):
+            self.hidden.add(self.row)
         for cell in row:
             self.column += 1
             if given := cell.get("r", "")[:20]:
@@ -456,40 +382,67 @@ class _Sheet:
                 except ValueError:
                     self.column = 0
             if not (0 < self.row <= LAST_ROW and 0 < self.column <= LAST_COLUMN):
-                raise _damaged(f"no cell of {self.name!r} can be at {given!r}")
-            kind, parts = cell.get("t", "n"), {_tag(part): part for part in cell}
-            element = parts.get("f")
-            formula = None if element is None else self.formula(element)
-            if formula and self.tables:
-                formula = _THIS_ROW.sub(self.in_this_row, formula)
-            value = self.value(kind, parts)
-            if formula is not None or value is not None:
-                self.reader.cells += 1
-                self.reader.formulas += formula is not None
-                if self.reader.cells > MAX_CELLS or self.reader.formulas > MAX_FORMULAS:
-                    raise WorkbookError(f"is refused: it has too many cells; {_LIMITS}")
-                array = element is not None and element.get("t") in ("array", "dataTable")
-                self.cells[self.row, self.column] = Cell(formula, value, kind == "e", array)
+                raise damaged(f"no cell of {self.name!r} can be at {given!r}")
+            self.take_cell(cell)
+
+    def take_cell(self, cell: ET.Element) -> None:
+        """Read one cell."""
+        kind, parts = cell.get("t", "n"), {name_of(part): part for part in cell}
+        element = parts.get("f")
+        formula = None if element is None else self.formula(element)
+        value = self.value(kind, parts)
+        if formula is None and value is None:
+            return
+        self.reader.cells += 1
+        self.reader.formulas += formula is not None
+        if self.reader.cells > MAX_CELLS or self.reader.formulas > MAX_FORMULAS:
+            raise too_much(f"it has too many cells; {_LIMITS}")
+        self.cells[self.row, self.column] = Cell(formula, value, kind == "e")
 
     def formula(self, element: ET.Element) -> str | None:
-        """The formula of a cell; one that it shares with another is translated to this cell."""
-        text = (element.text or "")[: MAX_FORMULA + 1]
-        kind = element.get("t")
-        if kind == "shared":
-            index = element.get("si", "")
-            if text:
-                self.masters[index] = text, self.address
-            elif index in self.masters:
-                master, origin = self.masters[index]
-                try:
-                    return str(Translator(f"={master}", origin).translate_formula(self.address))
-                except (TokenizerError, TranslatorError) as error:
-                    where = f"the formula that {self.name}!{self.address} shares with {origin}"
-                    raise _damaged(f"{where} cannot be read") from error
-        if kind == "array" and text:
-            cells = element.get("ref", self.address)
-            self.arrays.append((_corners(cells, f"an array formula of {self.name!r}"), f"={text}"))
-        return f"={text}" if text else None
+        """The formula of a cell; one that it shares with another is filled into this cell."""
+        text = (element.text or "").strip().removeprefix("=").lstrip()[: MAX_FORMULA + 1]
+        kind, index = element.get("t"), element.get("si", "")
+        if kind == "shared" and text:
+            self.masters[index] = f"={text}", self.address
+            self.translators.pop(index, None)
+        elif kind == "shared" and index in self.masters:
+            text = self.shared(index).removeprefix("=")
+        elif kind == "shared":  # the cell that has the formula may come later
+            self.waiting.setdefault(index, []).append((self.row, self.column))
+            return "="
+        elif kind == "dataTable":
+            inputs = [element.get(key, "")[:20] for key in ("r1", "r2")]
+            if not _is_set(element, "dt2D"):
+                inputs = [inputs[0], ""] if _is_set(element, "dtr") else ["", inputs[0]]
+            text = f"TABLE({','.join(inputs)})"
+        if not text:
+            return None
+        formula = self.counted(f"={text}")
+        if kind in ("array", "dataTable"):
+            cells, what = element.get("ref", self.address), f"an array formula of {self.name!r}"
+            self.arrays.append((_corners(cells, what), formula))
+        return formula
+
+    def counted(self, formula: str) -> str:
+        """A formula in the cell that is being read, with its cells of tables as addresses."""
+        if self.tables and "[" in formula:
+            formula = _THIS_ROW.sub(self.in_this_row, formula)
+        self.reader.characters += len(formula)
+        if self.reader.characters > MAX_FORMULA_TEXT:
+            raise too_much(f"its formulas have more than {MAX_FORMULA_TEXT:,} characters")
+        return formula
+
+    def shared(self, index: str) -> str:
+        """A shared formula, filled into the cell that is being read."""
+        master, origin = self.masters[index]
+        try:
+            if index not in self.translators:
+                self.translators[index] = _Translator(master, origin)
+            return str(self.translators[index].translate_formula(self.address))
+        except (TokenizerError, TranslatorError, IndexError, ValueError) as error:
+            where = f"the formula that {self.name}!{self.address} shares with {origin}"
+            raise damaged(f"{where} cannot be read") from error
 
     def in_this_row(self, match: re.Match[str]) -> str:
         """The address of a cell in its own row of a table, the sheet's first if none is named.
@@ -515,26 +468,56 @@ class _Sheet:
                 return self.texts[_whole_number(text, what, len(self.texts))] or None
             case "b":
                 return text.strip() not in ("0", "false")
-            case "e" | "str" | "d":
+            case "str":
+                return _unescaped(text)
+            case "e":
                 return text[:MAX_TEXT]
+            case "d":
+                return _day_number(text, self.reader.date1904)
         try:
-            number = float(text)
+            number = float(text if len(text) <= _MAX_NUMBER and "_" not in text else "too long")
         except ValueError as error:
             reason = f"{self.name}!{self.address} holds {text[:20]!r}, which is no number"
-            raise _damaged(reason) from error
+            raise damaged(reason) from error
         # Some writers store nan or inf, which no engine reads: it counts as no value.
         return number if math.isfinite(number) else None
 
-    def filled(self) -> dict[tuple[int, int], Cell]:
-        """The cells, with the formula of an array in every cell that it fills."""
+    def complete(self) -> dict[tuple[int, int], Cell]:
+        """The cells, with the formula that it shares in every cell that was read before it."""
+        for index, places in self.waiting.items():
+            if index not in self.masters:
+                ends = f"{self.name}!{address(*places[0])} to {address(*places[-1])}"
+                raise damaged(f"the formulas that {ends} share have no first cell")
+            for self.row, self.column in places:
+                formula = self.counted(self.shared(index))
+                place = self.row, self.column
+                self.cells[place] = self.cells[place]._replace(formula=formula)
         last_row, last_column = map(max, zip((1, 1), *self.cells, strict=True))
         for (left, top, right, bottom), text in self.arrays:
             rows = range(top, min(bottom, last_row) + 1)
             columns = range(left, min(right, last_column) + 1)
             self.reader.filled += len(rows) * len(columns)
             if self.reader.filled > MAX_CELLS:
-                raise WorkbookError(f"is refused: array formulas fill too many cells; {_LIMITS}")
+                raise too_much(f"array formulas fill too many cells; {_LIMITS}")
+            area = top, left, bottom, right
             for place in product(rows, columns):
                 if cell := self.cells.get(place):
-                    self.cells[place] = cell._replace(formula=text, array=True)
+                    self.cells[place] = cell._replace(formula=text, array=area)
         return self.cells
+
+
+def _day_number(text: str, date1904: bool) -> Value:
+    """A date as the number of days that it is in a workbook; the text if it is no date.
+
+    >>> _day_number("2024-02-17T12:00:00", False), _day_number("2024-02-16", True)
+    (45339.5, 43876.0)
+    >>> _day_number("16. 2. 24", False)
+    '16. 2. 24'
+    """
+    try:
+        moment = datetime.fromisoformat(text.strip()).replace(tzinfo=None)
+    except ValueError:
+        return text[:MAX_TEXT]
+    since = moment - _EPOCHS[date1904]
+    days = since.days + (since.seconds + since.microseconds / 1e6) / 86_400
+    return days if date1904 or days >= 61 else days - 1  # Excel has a 29 February 1900

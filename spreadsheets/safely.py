@@ -7,7 +7,7 @@ import zipfile
 import zlib
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
-from errno import EACCES, EBUSY, EINVAL, EISDIR, ENOTDIR
+from errno import EACCES, EBUSY, EEXIST, EINVAL, EISDIR, ENOTDIR
 from lzma import LZMAError
 from pathlib import Path
 from threading import current_thread, main_thread
@@ -35,6 +35,20 @@ def check_target(path: Path) -> Path:
     if not target.parent.is_dir():
         raise FileNotFoundError(2, "the folder to write to does not exist", str(path.parent))
     return target
+
+
+def check_own(path: Path, mark: bytes) -> None:
+    """Raise OSError, naming the path, if writing to it would replace what we have not written.
+
+    Our own files have `mark` within their first kilobyte; an empty file may be replaced, too.
+    """
+    target = check_target(path)
+    if target.exists():
+        with target.open("rb") as file:
+            start = file.read(1024)
+        if start and mark not in start:
+            problem = "this file was written by something else; give another name, or remove it"
+            raise FileExistsError(EEXIST, problem, str(path))
 
 
 @contextmanager

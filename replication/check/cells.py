@@ -1,421 +1,561 @@
-"""Judge each cell of a table by the cells calculated before it and by the rest of its column.
+"""Cells that differ from their column: in value, in response to the state, or to an input.
 
-So an error is found in the cell where it occurs, and the cells that follow from it are not accused.
+Every cell that does not have the usual formula of its column is compared with that formula in its
+own row. So a wrong cell is found where it stands, and the rows that follow from it are not accused.
 """
 
 import math
-import re
-from collections import Counter
-from collections.abc import Iterator
-from contextlib import suppress
-from dataclasses import replace
-from fractions import Fraction
-from itertools import product
-from typing import NamedTuple
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
-from reference.units import same_dimension
-from replication.check.examination import NEAR, Examination, near
-from replication.check.scheme import BEYOND, FILLS, REPORT, Case, contact, orders
-from replication.check.table import LEAST, Line, Table, address, is_spoiling, runs
-from replication.check.words import power_of_ten, times_too, title, unit_power
+from replication.check.examination import Difference, Examination
+from replication.check.fit import Probe
+from replication.check.roles import Inputs
+from replication.check.six import EXACT, REPORT, start_of_row
+from replication.check.table import LEAST, Line, Table, behind, runs
+from replication.check.words import title
+from replication.reading import quoted
+from spreadsheets.evaluate import Error, Evaluator, LiteralKey, Scalar, Shape, written
 from spreadsheets.foreign import Position
-from spreadsheets.recalculation import Calculation, Formula
 
-# ---- references that drift, and columns beside the table that the decelerations rest on
+RIGHT_HERE = "; it gives the right value here"
+"""The end of a sentence about a formula or a number that is right as long as nothing changes."""
+BLANK_ROW = "the row is blank"
+"""How the explanation of rows that were cleared begins."""
+_MOST_PROBED = 40
+"""So many odd cells of a column are probed; of others only the value is compared."""
 
 
-_BLOCK = 12
-"""The most inputs that stand one below the other; more numbers are a column."""
+def formula_at(exam: Examination, place: Position) -> str:
+    """The formula of a cell, cut if it is long; for a typed one, "the number"."""
+    shape = exam.table.evaluator.formulas.get(place)
+    return written(shape.key, place[1], place[2])[:200] if shape else "the number"
 
 
-def judge_references(exam: Examination) -> None:
-    """Report references to a cell beside the table that move on from row to row for want of a $."""
-    lines, number = exam.table.every_line, exam.calculation.number
-    entries = (*exam.inputs.values(), *exam.derived.values(), *exam.unread)
-    inputs = {entry.place for entry in entries}
+def feeding(table: Table) -> list[Line]:
+    """The lines beside the table that its columns read, in order of calculation."""
+    read: set[Line] = set()
+    found: list[Line] = []
+    for role, line in table.lines.items():
+        if role == "time" or line.usual is None:
+            continue
+        indices = [
+            i
+            for i in sorted(line.values)
+            if line.evaluator.formulas.get(line.place(i)) is line.usual
+        ]
+        if not indices:
+            continue
+        cells = behind(line, indices[len(indices) // 2])
+        for helper in table.helpers:
+            if helper not in read and any(helper.place(i) in cells for i in helper.values):
+                read.add(helper)
+                found.append(helper)
+    order = table.evaluator.order
+    return sorted(
+        found, key=lambda o: max((order.get(o.place(i), -1) for i in o.values), default=-1)
+    )
+
+
+def predicted(exam: Examination, role: str, k: int) -> float | None:
+    """What a cell should hold by the six numbers, given the other cells; None if one is missing."""
+    table = exam.table
+    result: float | None
+    if role == "time":
+        result = _next_time(exam, k)
+    elif role == "depth":
+        result = _next_depth(exam, k)
+    elif role == "deceleration":
+        result = _brake(exam, k)
+    elif role == "velocity_initial" and "velocity_final" in table.lines:
+        result = table.number("velocity_final", k - 1)
+    else:
+        result = _next_velocity(exam, k if role == "velocity_final" else k - 1)
+    return result if result is not None and math.isfinite(result) else None
+
+
+def _next_time(exam: Examination, k: int) -> float | None:
+    """The time in row k by that of the row before."""
+    before, step = exam.table.number("time", k - 1), exam.fitted.time
+    return None if before is None or step is None else before + step
+
+
+def _start_velocity(exam: Examination, k: int) -> float | None:
+    """The velocity at the start of row k."""
+    role, lag = start_of_row(exam.table)
+    return exam.table.number(role, k + lag)
+
+
+def _next_depth(exam: Examination, k: int) -> float | None:
+    """The depth in row k by that of the row before and the velocity; half a step in the first."""
+    before, v = exam.table.number("depth", k - 1), _start_velocity(exam, k)
+    if v is None or (before is None and k != 1):
+        return None
+    c = exam.fitted.six.c
+    return c * v / 2 if k == 1 or before is None else before + c * v
+
+
+def _brake(exam: Examination, k: int) -> float | None:
+    """The deceleration in row k by its depth and velocity, with the sign of its column."""
+    x, u = exam.table.number("depth", k), _start_velocity(exam, k)
+    if x is None or u is None:
+        return None
+    six = exam.fitted.six
+    a = six.deceleration(x, u)
+    if exam.fitted.centered:
+        a = six.deceleration(x, u - a * six.e / 2)
+    return exam.fitted.sign * a
+
+
+def _next_velocity(exam: Examination, k: int) -> float | None:
+    """The velocity at the end of row k by that at its start and its deceleration."""
+    v, a = _start_velocity(exam, k), exam.table.number("deceleration", k)
+    if a is None and "deceleration" not in exam.table.lines:
+        a = _brake(exam, k)
+    return None if v is None or a is None else v - exam.fitted.six.e * exam.fitted.sign * a
+
+
+def odd_cells(exam: Examination, inputs: Inputs) -> None:
+    """Report the cells of a table that differ from their column, also in lines that it reads."""
+    table = exam.table
+    for role, line in table.lines.items():
+        if _is_pasted(exam, role, line):
+            cells = [p for p in exam.cells(role, 1) if p not in table.evaluator.formulas]
+            text = f"the whole column of {title(role)} is typed as numbers"
+            exam.add("typed number", cells, None, text)
+        else:
+            _judge_line(exam, inputs, line, role)
+    helpers = [line for line in feeding(table) if line.usual is not None]
+    for helper in helpers:
+        _judge_line(exam, inputs, helper, None)
+    _blank_rows(exam)
+    _broken_off(exam, [*table.lines.values(), *helpers])
+    _broken_times(exam)
+
+
+def _is_pasted(exam: Examination, role: str, line: Line) -> bool:
+    """Whether a whole column is typed where others are computed."""
+    if role == "time" or line.computed or len(line.values) <= LEAST - 1:
+        return False
+    others = (o for r, o in exam.table.lines.items() if r not in (role, "time"))
+    matters = exam.fitted.probe is not None or role in ("deceleration", "velocity_initial")
+    return matters and any(other.computed for other in others)
+
+
+def _is_blank(evaluator: Evaluator, place: Position) -> bool:
+    return place not in evaluator.formulas and evaluator.values.get(place) is None
+
+
+_FAR = 100
+"""So many blank rows are looked at below a table whose formulas may go on."""
+
+
+def _blank_rows(exam: Examination) -> None:
+    """Report rows that were cleared: formulas of the same columns follow and read the blank cells.
+
+    Rows that are left out of a table of numbers, and two tables below each other, are none: no
+    formula reads the cells between them.
+    """
+    table = exam.table
+    evaluator = table.evaluator
+    usual = [line for line in table.lines.values() if line.usual is not None]
+    shown = set(table.rows.values())
+    last = max(shown)
+    for k, index in sorted(table.rows.items()):
+        after = index + 1
+        while after <= (last if index < last else last + _FAR) and all(
+            _is_blank(evaluator, line.place(after)) for line in usual
+        ):
+            after += 1
+        gap = {line.place(i) for line in usual for i in range(index + 1, after)}
+        goes_on = [o for o in usual if evaluator.formulas.get(o.place(after)) is o.usual]
+        moving = [o for o in goes_on if evaluator.values.get(o.place(after)) not in ("", "#N/A")]
+        reads = [o for o in moving if _reads_one(evaluator, o.place(after), gap)]
+        if reads and len(goes_on) == len(usual):  # not a last velocity by itself
+            cells = sorted(line.place(i) for i in range(index + 1, after) for line in usual)
+            text = f"{BLANK_ROW}, though the formulas below it read it"
+            rank = (1, k + 0.5, 0)
+            exam.differences.append(Difference("odd formula", tuple(cells), None, None, text, rank))
+
+
+def _reads_one(evaluator: Evaluator, place: Position, cells: Collection[Position]) -> bool:
+    """Whether a formula reads one of some cells, by itself and not as a part of a range."""
+    return any(area.cells == 1 and area.corner in cells for area in evaluator.areas(place))
+
+
+def _broken_off(exam: Examination, lines: Sequence[Line]) -> None:
+    """Report what ends a table before its formulas do: a blank cell, a text, or an error."""
+    evaluator, index = exam.table.evaluator, max(exam.table.rows.values()) + 1
+    usual = [o for o in lines if o.usual and evaluator.formulas.get(o.place(index)) is o.usual]
+    values = [evaluator.values.get(line.place(index)) for line in usual]
+    if any(isinstance(value, Error) and value != "#N/A" for value in values):
+        cells = [line.place(index) for line in lines if line not in usual]
+        cells = [p for p in cells if type(evaluator.values.get(p)) is not float]
+        if spoilt := [p for p in cells if not _is_blank(evaluator, p)]:
+            _breaks_off(exam, spoilt[0])
+        return
     for line in lines:
-        alike = [formula for formula in line.formulas if formula.shape == line.formulas[-1].shape]
-        begin = line.formulas.index(alike[0]) if alike else 0
-        before = line.formulas[begin - 1] if begin else None
-        for pieces in zip(*(formula.pieces for formula in alike), strict=True):
-            read = [piece.area.corner for piece in pieces if piece.area and piece.area.cells == 1]
-            if len(read) > 1:  # a first row with another formula may read the right cell
-                (sheet, *first), (_, *second) = read[:2]
-                row, column = (2 * a - b for a, b in zip(first, second, strict=True))
-                if before and before.reads((sheet, row, column)):
-                    read.insert(0, (sheet, row, column))
-            beside = [place for place in read if not any(column.covers(place) for column in lines)]
-            moves = len(read) > 1 and read[0] != read[1] and read[:1] == beside[:1]
-            # Such a reference soon meets a blank, a text or an input; others read a whole column.
-            strays = None in map(number, beside[:_BLOCK]) or inputs & set(beside[1:])
-            if moves and strays and number(read[0]) is not None:
-                cells = [formula.place for formula in alike[1 - len(read) :]]
-                right, wrong = (address(place, place[0] != line.sheet) for place in read[:2])
-                text = f"the reference to {right} is not fixed by a $: this "
-                text += f"{'column' if line.across else 'row'} reads {wrong}, and so on"
-                exam.add("odd formula", cells, None, text, exam.calculation.book[cells[0]].formula)
+        place = line.place(index)
+        if _is_blank(evaluator, place) and any(
+            _reads_one(evaluator, o.place(index), [place]) for o in usual
+        ):
+            _breaks_off(exam, place)
+            return
 
 
-class Beside(NamedTuple):
-    """A column beside the table that may hold a quantity on which the decelerations rest.
+def _breaks_off(exam: Examination, place: Position, after: str = "the table breaks off") -> None:
+    """Report the cell at which a column stops to give numbers."""
+    evaluator = exam.table.evaluator
+    if place in evaluator.formulas:
+        text = f"{formula_at(exam, place)} gives no number: {after}"
+        exam.add("odd formula", [place], None, text)
+    elif _is_blank(evaluator, place):
+        text = f"the cell is blank, though formulas of its row read it: {after}"
+        exam.add("odd formula", [place], None, text)
+    else:
+        value = evaluator.values.get(place)
+        text = f"{typed_what(value)} is typed here: {after}"
+        exam.add("typed number", [place], None, text, as_typed(value))
 
-    `implied` gives, by row, the unit in which the number is what the row's deceleration implies,
-    `right` the unit in which it is the right value, and `cells` the cells in which these differ.
-    `says` explains what is wrong with such a cell.
+
+def _broken_times(exam: Examination) -> None:
+    """Report a cell after which the times are errors.
+
+    Times grow by a constant: each formula reads the cell before it and nothing else of the rows.
+    """
+    table = exam.table
+    if "time" in table.lines:
+        return
+    evaluator = table.evaluator
+    last = max(table.rows.values())
+    known = {line.number for line in table.lines.values()}
+    line = table.lines["depth"]
+    columns = {p[1] if table.across else p[2] for p in evaluator.formulas if p[0] == table.sheet}
+    for number in sorted(columns - known):
+        column = replace(line, number=number)
+        shape = evaluator.formulas.get(column.place(last))
+        if shape is None or not isinstance(evaluator.values.get(column.place(last)), Error):
+            continue
+        index = last
+        while evaluator.formulas.get(column.place(index)) is shape and _adds(column, index):
+            index -= 1
+        if last - index < LEAST or not isinstance(
+            evaluator.values.get(column.place(index + 1)), Error
+        ):
+            continue
+        while isinstance(evaluator.values.get(column.place(index - 1)), Error):
+            index -= 1
+        before = column.place(index - 1)
+        if type(evaluator.values.get(before)) is str and _reads_one(
+            evaluator, column.place(index), [before]
+        ):
+            index -= 1
+        value = evaluator.values.get(column.place(index))
+        if type(value) is not float and not _is_blank(evaluator, column.place(index)):
+            _breaks_off(exam, column.place(index), "the times from here on are errors")
+
+
+def _adds(line: Line, index: int) -> bool:
+    """Whether a formula reads the cell before it, and no other cell of its own row or that one."""
+    evaluator, before = line.evaluator, line.place(index - 1)
+    along = 2 if line.across else 1
+    rows = [
+        area.corner for area in evaluator.areas(line.place(index))
+        if area.cells > 1
+        or (area.sheet == line.sheet and area.corner[along] in (index, index - 1))
+    ]  # fmt: skip
+    return rows == [before]
+
+
+def _rows_of(table: Table, line: Line, role: str | None) -> Iterator[tuple[int, Position]]:
+    """The rows of a line that should have its usual formula, each with its cell."""
+    for k in sorted(table.rows):
+        if k <= 0 or (k == 1 and role in ("depth", "velocity_initial")):
+            continue
+        if k == min(table.rows) and not table.whole:
+            continue
+        yield k, line.place(table.rows[k])
+
+
+def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None) -> None:
+    """Report what is odd in a line; neighbours of one kind together."""
+    table, evaluator, usual = exam.table, exam.table.evaluator, line.usual
+    odd: dict[Position, tuple[object, ...]] = {}
+    probed = 0
+    first = min(line.values)
+    for k, place in _rows_of(table, line, role):
+        shape = evaluator.formulas.get(place)
+        if usual is not None and shape is usual and evaluator.values.get(place) is not None:
+            continue
+        if role is None and line.place(first)[1:] > place[1:]:
+            continue
+        if role == "deceleration" and _is_right_force(exam, k):
+            continue
+        is_last = k == table.steps and role in ("deceleration", "velocity_final")
+        end = table.lines.get("velocity_final")
+        if role == "deceleration" and end is not None and end.computed:
+            is_last = False  # the velocity at the end of the row needs it
+        if is_last and shape is None and place not in evaluator.values:
+            continue
+        probed += 1
+        verdict = _verdict(exam, inputs, line, role, k, place, probed <= _MOST_PROBED)
+        if verdict is not None:
+            odd[place] = verdict
+    groups = runs({p: (v[0], v[1]) for p, v in odd.items()}, table.across)
+    for group in groups:
+        kind, text, expected, found = odd[group[0]]
+        exam.add(str(kind), group, expected, str(text), found)  # type: ignore[arg-type]
+
+
+def _is_right_force(exam: Examination, k: int) -> bool:
+    """Whether a row has the deceleration of its inputs, where its column is accused as a whole."""
+    table, units, six = exam.table, exam.units, exam.intended
+    if exam.fitted.ways.get("deceleration") is REPORT["deceleration"] or six is None:
+        return False
+    start = start_of_row(table)
+    x, u = table.number("depth", k), table.number(start[0], k + start[1])
+    a = table.number("deceleration", k)
+    if x is None or u is None or a is None:
+        return False
+    X, W, A = (10.0 ** units.get(role, 0.0) for role in ("depth", start[0], "deceleration"))
+    wanted = six.deceleration(x * X, u * W)
+    return math.isclose(exam.fitted.sign * a * A, wanted, rel_tol=EXACT)
+
+
+Verdict = tuple[str, str, object, object]
+"""What is wrong with a cell: its kind, a text, what is expected and what is there."""
+
+
+@dataclass(frozen=True)
+class _Cell:
+    """A cell of row k that has not the usual formula of its line.
+
+    `expected` is the number that it should hold, `instead` the usual formula as it would stand
+    there; `applies` says whether that gives a number.
     """
 
     line: Line
-    name: str
-    says: str
-    dimension: str
-    implied: dict[int, float]
-    right: dict[int, float]
-    cells: dict[int, Position]
+    role: str | None
+    k: int
+    place: Position
+    expected: float | None
+    instead: str
+    applies: bool
+
+    @property
+    def value(self) -> Scalar:
+        """What the cell holds or gives."""
+        return self.line.evaluator.values.get(self.place)
+
+    @property
+    def would(self) -> str:
+        """The end of a sentence, with the formula that should stand there."""
+        return f" where {self.instead[:200]} would stand" if self.instead else ""
 
 
-def _beside(exam: Examination) -> Iterator[Beside]:
-    """Yield each column that may hold contact areas, pressures or forces."""
-    if not exam.table.helpers or "deceleration" not in exam.rows.columns:
-        return
-    areas, pressures, forces = (dict[int, tuple[float, float]]() for _ in range(3))
-    for k in range(1, exam.table.steps + 1):
-        x, v, a = (exam.rows(role, k) for role in ("depth", "velocity_initial", "deceleration"))
-        area = math.pi * contact(exam.case, x or 0.0)  # 0 at touch, and at depths such as 5E-324 m
-        if area and v is not None and a is not None:
-            force = a * exam.case.mass
-            pressure = 0.5 * exam.case.target_density * v * v + exam.case.resistance
-            areas[k], pressures[k] = (force / pressure, area), (force / area, pressure)
-            forces[k] = force, pressure * area
-    quantities = (
-        ("area", "the depth", "m^2", areas),
-        ("pressure", "the velocity", "Pa", pressures),
-        ("force", "the depth and the velocity", "N", forces),
-    )
-    for (name, sources, dimension, values), line in product(quantities, exam.table.helpers):
-        numbers = {k: number for k in values if (number := line.at(exam.table.zero + k))}
-        if len(numbers) >= LEAST:
-            implied, right = ({k: values[k][i] / x for k, x in numbers.items()} for i in (0, 1))
-            cells = {k: line.place(exam.table.zero + k) for k in right if not near(*values[k])}
-            says = f"this {name} does not follow from {sources} of its row"
-            yield Beside(line, name, says, dimension, implied, right, cells)
+def _odd_cell(exam: Examination, line: Line, role: str | None, k: int, place: Position) -> _Cell:
+    """A cell with what it should hold: by its column's formula, or by the six numbers."""
+    rows, usual = exam.table.rows, line.usual
+    expected = predicted(exam, role, k) if role else None
+    straight = rows[k] - rows.get(k - 1, rows[k] - 1) == 1
+    if usual is None or not straight:
+        return _Cell(line, role, k, place, expected, "", False)
+    shown = exam.table.evaluator.value(place, {}, shape=usual)
+    applies = type(shown) is float
+    if type(shown) is float:
+        close = expected is None or math.isclose(shown, expected, rel_tol=1e-6, abs_tol=_size(line))
+        expected = shown if close or role is None else expected
+    instead = written(usual.key, place[1], place[2])
+    return _Cell(line, role, k, place, expected, instead, applies)
 
 
-def _power(units: dict[int, float]) -> int | None:
-    """Return n if all units are 10^n, else None."""
-    first, *others = units.values()
-    return power_of_ten(first) if all(near(unit, first) for unit in others) else None
+def _verdict(
+    exam: Examination, inputs: Inputs, line: Line, role: str | None, k: int, place: Position,
+    probe: bool,
+) -> Verdict | None:  # fmt: skip
+    """What is wrong with a cell that has not its column's formula; None if nothing."""
+    odd = _odd_cell(exam, line, role, k, place)
+    shape = exam.table.evaluator.formulas.get(place)
+    if shape is None:
+        return _typed(exam, odd)
+    if type(odd.value) is not float:
+        return _without_number(odd)
+    if odd.expected is None:
+        return None
+    same = _same(odd.value, odd.expected, line, exam)
+    usual = line.usual
+    if usual is not None and odd.applies and probe and exam.fitted.probe is not None:
+        return _unlike(odd, own(shape, place), same, _alike(exam, inputs, place, shape, usual, k))
+    return None if same else _other_number(odd, own(shape, place))
 
 
-def judge_heads_beside(exam: Examination) -> None:
-    """Report heads of contact areas, pressures and forces whose unit contradicts the numbers."""
-    for column in _beside(exam):
-        line, power = column.line, _power(column.right)
-        if power is None or not line.unit or not same_dimension(line.unit, column.dimension):
-            continue
-        if slip := (unit_power(line.unit) or 0) - power:
-            size = f"in which it is {times_too(slip)}"
-            text = f"the head gives the {column.name} in {line.unit}, {size}"
-            exam.add("unit", [line.unit_place or line.place(line.first)], None, text, line.unit)
+def own(shape: Shape, place: Position) -> str:
+    """The formula of a cell, cut if it is long."""
+    return written(shape.key, place[1], place[2])[:200]
 
 
-def wrong_beside(exam: Examination) -> Beside | None:
-    """Return the column of areas, pressures or forces because of which decelerations are wrong."""
-    for column in _beside(exam):
-        if column.cells and _power(column.implied) is not None and _power(column.right) is None:
-            return column
-    return None
+def _other_number(odd: _Cell, formula: str) -> Verdict:
+    text = f"{formula} does not give what the rest of the table does"
+    return "odd formula", text, odd.expected, odd.value
 
 
-# ---- each cell, by the cells before it and by its column
+def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool, bool]) -> Verdict | None:
+    """The verdict on a formula that responds to the row, or to the inputs, as its column or not.
 
-
-def judge_cells(exam: Examination) -> None:
-    """Report every cell that does not follow from the cells before it or is unlike its column."""
-    calculation = exam.calculation
-    beside = wrong_beside(exam)
-    odd = _unlike(exam, beside)
-    areas = (area for place in exam.table.places for area in calculation.areas(place))
-    read = {area.corner for area in areas if area.cells == 1}
-    spoilt, accused = _spoilt(exam, odd.keys() - exam.table.places.keys()), exam.accused
-    wrong: dict[Position, tuple[str, str, float | None]] = {}
-    for place, (role, k) in exam.table.places.items():
-        expected = exam.rows.wanted(role, k)
-        sources = {*calculation.corners(place)} - {place}
-        if place in odd:
-            kind, text = odd.pop(place)
-            if error := calculation.error(place):
-                kind, text = "odd formula", f"{text}; it gives {error}"
-            elif reason := calculation.uncomputed.get(place):
-                kind, text = "odd formula", f"{text}; it is not computed here: {reason}"
-        elif place in accused or sources & spoilt:
-            continue
-        elif _fails(exam, role, k, place in read):
-            kind, text = _lone(exam, role, k)
-            if beside and role == "deceleration" and k in beside.cells:
-                place, expected, text = beside.cells[k], None, beside.says
-            place, text = _converting(exam, place, text)
-        else:
-            continue
-        value = exam.rows.columns[role].get(k)
-        if value and expected and math.isclose(value, expected, rel_tol=1e-9):
-            text += "; it gives the right value here"
-        wrong[place] = kind, text, exam.shown(role, expected)
-    wrong |= {place: (*why, None) for place, why in odd.items()}
-    # Neighbours whose explanations differ only in numbers are one difference.
-    number = r"\d+(?:\.\d+)?(?:[eE][-+]?\d+)?"
-    causes = {place: (kind, re.sub(number, "#", text)) for place, (kind, text, _) in wrong.items()}
-    for run in runs(causes, exam.table.across):
-        kind, text, expected = wrong[run[0]]
-        exam.add(kind, run, expected, text)
-
-
-def _converting(exam: Examination, place: Position, text: str) -> tuple[Position, str]:
-    """Return the cell to accuse for a wrong one, and the explanation.
-
-    If a first velocity only shows what a formula beside the table makes of the impact velocity,
-    it is that formula; else it is the cell itself, with its own explanation.
+    A number in the formula of the others, where this one reads a cell, is theirs.
     """
-    role, k = exam.table.places.get(place, ("", 0))
-    if not role.startswith("velocity") or k > 1:
-        return place, text
-    calculation = exam.calculation
-    chain = reversed(calculation.chain(place))
-    cell = next((source for source in chain if source in calculation.formulas), place)
-    sources = calculation.corners(cell)
-    if cell in exam.table.places or exam.inputs["velocity"].place not in sources:
-        return place, text
-    return cell, f"{title('velocity')} does not follow from {address(sources[0])}"
+    state, given, reads_more = alike
+    if same and state and not given and not reads_more:
+        text = f"{formula} has a number where its column reads a cell: {odd.instead[:200]}"
+        return "typed constant", f"{text}{RIGHT_HERE}", None, None
+    if odd.role == "time":  # which people count up in several ways
+        return None if same else _other_number(odd, formula)
+    if same and state:
+        return None
+    return "odd formula", f"{formula} is unlike its column{odd.would}", odd.expected, odd.value
 
 
-def _spoilt(exam: Examination, wrong: set[Position]) -> set[Position]:
-    """Return the cells whose readers are not to blame.
+def typed_what(value: object) -> str:
+    """What is typed into a cell, for a sentence.
 
-    They are the `wrong` cells beside the table, cells of the table that hold a text or a truth
-    value, cells that are not computed, and cells beside the table that read any of these.
+    >>> typed_what(1.0), typed_what("abc"), typed_what(True)
+    ('a number', 'a text', 'a logical value')
     """
-    order, values = exam.calculation.order, exam.calculation.values
-    spoilt = wrong | {p for p in exam.table.places if isinstance(values.get(p), str | bool)}
-    spoilt |= exam.calculation.texts.keys() | exam.calculation.unknown
-    cells = {place for line in exam.table.helpers for place in line.cells}
-    for place in sorted(cells & order.keys(), key=order.__getitem__):
-        if not spoilt.isdisjoint(exam.calculation.corners(place)):
-            spoilt.add(place)
-    return spoilt
+    if isinstance(value, bool):
+        return "a logical value"
+    return "a number" if isinstance(value, float) else "a text"
 
 
-_TYPE_NAMES = {str: "a text", bool: "a truth value"}
+def as_typed(value: Scalar) -> Scalar:
+    """What is typed into a cell as a difference shows it: a text in quotation marks."""
+    return quoted(value) if isinstance(value, str) else value
 
 
-def irregular(line: Line, table: Table) -> Iterator[tuple[Position, tuple[str, str]]]:
-    """Yield the cells of a line that are unlike most of it, with kind and explanation.
+def _typed(exam: Examination, odd: _Cell) -> Verdict | None:
+    """The verdict on a cell without a formula."""
+    value, line = odd.value, odd.line
+    if value is None:
+        text = f"the cell is blank{odd.would}"
+        return None if odd.expected is None else ("odd formula", text, odd.expected, None)
+    if type(value) is not float:
+        if (line.computed and line.usual is not None) or odd.role not in (None, "time"):
+            text = f"{typed_what(value)} is typed{odd.would}"
+            return "typed number", text, odd.expected, as_typed(value)
+        return None
+    same = _same(value, odd.expected, line, exam)
+    mixed = line.computed or odd.role is not None  # half of a column may be typed
+    if mixed and line.usual is not None:
+        if odd.role is None and same and odd.k == 1:
+            return None
+        text = f"a number is typed{odd.would}{RIGHT_HERE if same else ''}"
+        return "typed number", text, odd.expected, value
+    if odd.role is None or odd.expected is None or same:
+        return None
+    text = "the number does not follow from the cells before it"
+    return "typed number", text, odd.expected, value
 
-    Rows 0 and 1 start the scheme, so their formulas may differ from the others.
-    """
-    rows = [table.zero + k for k in range(2, table.steps + 1)]
-    places = [line.place(at) for at in rows if line.follows(at)]
-    calculation = line.calculation
-    formulas = {p: calculation.formulas[p] for p in places if p in calculation.formulas}
-    starts = formulas.keys() >= set(places[:3])  # formulas that go on in typed numbers
-    if len(formulas) < max(3, 0.5 * len(places) * (not starts)):
-        return
-    # If no shape is usual, compare shapes without numbers: some people type the row's number.
-    for masked in (False, True):
-        shapes = {
-            place: tuple(
-                "#" if masked and piece.kind == "number" else shape
-                for piece, shape in zip(formula.pieces, formula.shape, strict=True)
+
+def _without_number(odd: _Cell) -> Verdict | None:
+    """The verdict on a formula that gives no number."""
+    value = odd.value
+    if value == "#N/A" and odd.role is not None and _goes_on(odd.line, odd.place):
+        return "odd formula", f"the formula gives {value}{odd.would}", odd.expected, str(value)
+    if isinstance(value, Error) and value != "#N/A" and odd.expected is not None:
+        return "odd formula", f"the formula gives {value}", odd.expected, str(value)
+    if odd.role is None or odd.expected is None or value in ("", "#N/A"):
+        return None
+    return "odd formula", f"the formula gives no number{odd.would}", odd.expected, value
+
+
+def _goes_on(line: Line, place: Position) -> bool:
+    """Whether the usual formula of a line stands below a cell: the rows did not end there."""
+    index = (place[2] if line.across else place[1]) + 1
+    return line.usual is not None and line.evaluator.formulas.get(line.place(index)) is line.usual
+
+
+def _size(line: Line) -> float:
+    return 1e-12 * max(map(abs, line.values.values()), default=0.0)
+
+
+def _same(value: float, expected: float | None, line: Line, exam: Examination) -> bool:
+    """Whether a number is the one expected, to nine digits of it or to its own digits."""
+    if expected is None:
+        return True
+    typed = 0.0
+    if not line.computed:
+        size = max(map(abs, line.values.values()))
+        typed = 4 * line.rounding(value or size) + _spread(exam, line, abs(expected))
+    scale = max(abs(expected), 1e-5 * max(map(abs, line.values.values())))
+    return abs(value - expected) <= EXACT * scale + typed
+
+
+def _spread(exam: Examination, line: Line, expected: float) -> float:
+    """By how much typed digits of the cells before may change what follows from them."""
+    table = exam.table
+    role = next((r for r, o in table.lines.items() if o is line), None)
+    spread = exam.fitted.slack * expected
+    if role is not None and role.startswith("velocity"):
+        speed = table.lines[start_of_row(table)[0]]
+        spread += 4 * speed.rounding(abs(exam.fitted.six.V))
+        if "deceleration" in table.lines:
+            brake = table.lines["deceleration"]
+            spread += (
+                abs(exam.fitted.six.e) * 2 * brake.rounding(max(map(abs, brake.values.values())))
             )
-            for place, formula in formulas.items()
-        }
-        counts = Counter(shapes.values())
-        usual, frequency = counts.most_common(1)[0]
-        if frequency >= 0.5 * len(formulas):
-            break
-    else:
-        return
-    patterns = {shape: formulas[place] for place, shape in reversed(shapes.items())}
-    pattern = patterns[usual]
-    for shape, number in counts.items():
-        if number >= 0.1 * len(formulas) and _reads_for(patterns[shape], pattern, calculation):
-            usual, pattern = shape, patterns[shape]
-    for place in places:
-        if place in formulas:
-            if shapes[place] != usual:
-                yield place, _odd(formulas[place], pattern, calculation)
-        elif (typed := calculation.values.get(place)) is not None:
-            kind = str if place in calculation.texts else type(typed)
-            usual_formula = _filled(pattern, place, calculation)
-            content = _TYPE_NAMES.get(kind, "a number")
-            yield place, ("typed number", f"{content} is typed where {usual_formula} would stand")
-
-
-def _reads_for(formula: Formula, typed: Formula, calculation: Calculation) -> bool:
-    """Whether a formula is like another one but reads cells whose numbers that one has typed."""
-    if len(formula.pieces) != len(typed.pieces):
-        return False
-    pairs = zip(formula.pieces, typed.pieces, strict=True)
-    unlike = [(a, b) for a, b in pairs if (a.shape or a.text) != (b.shape or b.text)]
-    return bool(unlike) and all(
-        a.area and b.kind == "number" and calculation.number(a.area.corner) == float(b.text)
-        for a, b in unlike
-    )
-
-
-def _odd(formula: Formula, pattern: Formula, calculation: Calculation) -> tuple[str, str]:
-    """Return kind and explanation for a formula unlike the pattern of its column.
-
-    It may have a number where the pattern reads a cell or has a name.
-    """
-    text = calculation.book[formula.place].formula
-    usual = _filled(pattern, formula.place, calculation)
-    typed = Counter(formula.typed) - Counter(pattern.typed)
-    has_fewer_cells = len(formula.areas) < len(pattern.areas)
-    if typed and (has_fewer_cells or pattern.names - formula.names):
-        numbers = " and ".join(f"{number:g}" for number in typed)
-        read = "reads a cell" if has_fewer_cells else "has a name"
-        return "typed constant", f"{text} has {numbers} where its column {read}: {usual}"
-    return "odd formula", f"{text} is unlike its column, where {usual} would stand"
-
-
-def _filled(pattern: Formula, place: Position, calculation: Calculation) -> str:
-    """Return the text of a formula as it would be if filled into another cell."""
-    from openpyxl.formula.translate import Translator, TranslatorError
-
-    text = calculation.book[pattern.place].formula or ""
-    with suppress(TranslatorError):  # where it would reach beyond the sheet's edge
-        text = str(Translator(text, address(pattern.place)).translate_formula(address(place)))
-    return text
-
-
-def _unlike(exam: Examination, beside: Beside | None) -> dict[Position, tuple[str, str]]:
-    """Return the cells unlike their column, with kind and explanation.
-
-    If other formulas of the column are wrong, an unlike one that is right is not accused.
-    """
-    odd = {p: why for line in exam.table.every_line for p, why in irregular(line, exam.table)}
-    for role in {exam.table.places[place][0] for place in odd.keys() & exam.table.places.keys()}:
-        fails = {
-            place: _fails(exam, role, k)
-            for k, place in enumerate(exam.cells(role, 1), 1)
-            if place in exam.calculation.formulas and exam.rows.wanted(role, k) is not None
-        }
-        if any(fails[place] for place in fails.keys() - odd.keys()):
-            odd = {place: why for place, why in odd.items() if fails.get(place, True)}
-    if beside:
-        right = set(beside.line.cells) - set(beside.cells.values())
-        odd = {place: why for place, why in odd.items() if place not in right}
-    return odd
-
-
-def _fails(exam: Examination, role: str, k: int, is_read: bool = False) -> bool:
-    """Whether a cell does not hold what it should; `is_read` if another cell of the table reads it.
-
-    A blank cell may end a column, unless it is read.
-    """
-    column, place = exam.rows.columns[role], exam.table.place(role, k)
-    value, expected = column.get(k), exam.rows.wanted(role, k)
-    if value is None:
-        if expected is not None and not math.isfinite(expected):
-            return False  # the right formula gives an error, too
-        needed = 0 < k < max(column, default=0) or (is_read and k > 0)
-        return needed or _is_text(exam, place, k) or bool(exam.calculation.error(place))
-    # A time may be computed from the row's number instead of the time before.
-    numbered = role == "time" and math.isclose(value, k * exam.case.step, rel_tol=NEAR)
-    if expected is None or numbered:
-        return False
-    size = abs(expected)
-    if role.startswith("velocity"):
-        size = max(size, abs(exam.rows("velocity_initial", max(k - 1, 0)) or 0.0))
-    if abs(value - expected) <= NEAR * size or _rests(exam, role, value, expected):
-        return False
-    # A first row that is the report's may be unlike the others, which follow another rule.
-    part = FILLS.get(role, "advance")
-    return k != 1 or part == "advance" or not exam.follows(part, REPORT[part], 1)
-
-
-def _rests(exam: Examination, role: str, value: float | None, expected: float) -> bool:
-    """Whether a final velocity is 0 instead of below the stop, so that nothing is thrown back."""
-    return role == "velocity_final" and value == 0 and expected < exam.case.stop_velocity
-
-
-def _is_text(exam: Examination, place: Position, k: int) -> bool:
-    """Whether a text or truth value is typed into a cell of row k, which is not part of a head."""
-    value = exam.calculation.values.get(place)
-    if not isinstance(value, str | bool) or place in exam.calculation.formulas:
-        return False
-    return (k > 0 and value != "") or is_spoiling(place, exam.calculation, exam.table.across)
-
-
-def _lone(exam: Examination, role: str, k: int) -> tuple[str, str]:
-    """Return kind and explanation for a single cell that does not follow from those before it."""
-    place, cell = exam.table.place(role, k), f"{title(role)} of row {k}"
-    value, expected = exam.rows.columns[role].get(k), exam.rows.wanted(role, k)
-    typed = place not in exam.calculation.formulas
-    kind = "typed number" if typed else "odd formula"
-    if error := exam.calculation.error(place):
-        return "odd formula", f"{cell} gives {error}, as do all cells that read it"
-    if value is None and _is_text(exam, place, k):
-        return kind, f"{cell} is {_TYPE_NAMES[type(exam.calculation.values[place])]}, not a number"
-    if value is None:
-        return "odd formula", f"{cell} is {'blank' if typed else 'no number'}"
-    if role == "time" and k == 1 and value == 0:
-        return "other scheme", "the times are those at the beginning of the rows"
-    text = f"{cell} is not what the cells before it give"
-    if power := power_of_ten(value / expected) if expected else None:
-        return "unit", f"{text}: a factor of 1e{abs(power)}"
-    if role == "depth" and k == 1 and not typed:
-        return "other scheme", "the first depth is neither half a step nor a whole one"
-    beyond = (exam.rows("depth", k) or 0.0) >= exam.case.radius
-    if role == "deceleration" and beyond and exam.follows("brake", BEYOND, k):
-        return "other scheme", f"{BEYOND.name}: {BEYOND.says}"
-    return kind, text
-
-
-def judge_order(exam: Examination) -> None:
-    """Report columns whose last digits differ from every order of the report's operations.
-
-    Nothing is reported if units are converted or another scheme is followed: that costs last
-    digits, too.
-    """
-    factors = {entry.factor for entry in (*exam.inputs.values(), *exam.derived.values())}
-    if any(exam.powers.values()) or factors != {Fraction(1)} or exam.rows.rules != REPORT:
-        return
-    if any(_power(column.right) for column in _beside(exam)):
-        return
-    # A mass that no cell holds is tried as any order of its product may give it.
-    masses = [exam.case.mass]
-    for limit in (0.0, math.inf) if "mass" not in exam.derived else ():
-        mass = exam.case.mass
-        masses += [mass := math.nextafter(mass, limit) for _ in range(4)]
-    cases = [replace(exam.case, own_mass=mass) for mass in masses]
-    exempt = exam.accused | exam.calculation.uncomputed.keys()
-    computed = exam.calculation.formulas.keys() - exempt
-    # Velocities do not tell the order of a deceleration that no column holds.
-    shown = "deceleration" in exam.rows.columns
-    for role in ("depth", "deceleration", "velocity_final") if shown else ("depth",):
-        column = exam.rows.columns.get(role, {})
-        rows = [k for k in column if k and exam.table.place(role, k) in computed
-                and not _fails(exam, role, k)]  # fmt: skip
-        by_mass = []
-        for case in cases:
-            values = {k: _orders(exam, role, k, case) for k in rows}
-            by_mass.append({k: x for k, x in values.items() if x and column[k] not in x})
-        if differing := min(by_mass, key=len):
-            k, allowed = next(iter(differing.items()))
-            expected = min(allowed, key=lambda value: abs(value - column[k]))
-            ulps = round(abs(expected - column[k]) / math.ulp(expected))
-            text = f"the last digits of {len(differing)} of {len(rows)} cells of {title(role)} "
-            text += f"differ, here by {ulps} ulp: another order of operations, "
-            text += "on which no printed digit depends"
-            cells = [exam.table.place(role, row) for row in differing]
-            exam.add("operation order", cells, exam.shown(role, expected), text)
-
-
-def _orders(exam: Examination, role: str, k: int, case: Case) -> set[float]:
-    """Return the values that a cell may hold, depending on the order of operations."""
-    value = exam.rows.wanted(role, k)
-    if value is None or _rests(exam, role, exam.rows(role, k), value):
-        return set()
+    if role == "depth":
+        spread += 2 * line.rounding(max(map(abs, line.values.values())))
     if role == "deceleration":
-        return orders(case, exam.rows["depth", k], exam.rows["velocity_initial", k])
-    return {value}
+        depth = table.lines["depth"]
+        deepest = max(map(abs, depth.values.values()))
+        spread += 4 * max(map(abs, line.values.values())) * depth.rounding(deepest) / deepest
+    return spread
+
+
+def _alike(
+    exam: Examination, inputs: Inputs, place: Position, shape: Shape, usual: Shape, k: int
+) -> tuple[bool, bool, bool]:
+    """Whether a formula responds like its column's to the state of its row, and to the inputs.
+
+    Then whether it responds to all inputs to which that one does, and to more.
+    """
+    table, evaluator = exam.table, exam.table.evaluator
+    probe = Probe(table, k)
+    state: dict[Position, float | str | bool | None] = {}
+    for number, (name, cell) in enumerate(probe.state.items(), 1):
+        if cell != place:
+            state[cell] = probe.base[name] * (1 + 0.0037 * number)
+    given: dict[Position, float | str | bool | None] = {}
+    for number, source in enumerate(inputs.sources, 1):
+        if source.literal is None and not source.computed and source.place is not None:
+            given[source.place] = source.value * (1 + 0.0029 * number)
+    numbers = {
+        source.literal: source.value * (1 + 0.0023 * number)
+        for number, source in enumerate(inputs.sources, 1)
+        if source.literal is not None and source.name
+    }
+    cone = probe.cone(place)
+    wide = cone | evaluator.cone(
+        [(a.sheet, a.top, a.left) for ref in usual.references for a in [ref.at(place[1], place[2])]
+         if a.cells == 1], probe.stop)  # fmt: skip
+
+    def same(
+        cells: Mapping[Position, float | str | bool | None], literals: Mapping[LiteralKey, float]
+    ) -> bool:
+        own = evaluator.value(place, cells, literals, wide, shape)
+        want = evaluator.value(place, cells, literals, wide, usual)
+        if type(own) is float and type(want) is float:
+            return math.isclose(own, want, rel_tol=EXACT)
+        return type(own) is type(want)
+
+    def read(formula: Shape) -> set[Position]:
+        first = evaluator.value(place, {}, {}, wide, formula)
+        return {
+            cell
+            for cell, nudged in given.items()
+            if evaluator.value(place, {cell: nudged}, {}, wide, formula) != first
+        }
+
+    alike = same(state, {})
+    if not alike or same({**state, **given}, numbers):
+        return alike, True, False
+    return True, False, read(shape) > read(usual)

@@ -1,32 +1,24 @@
 """Compare two workbooks: first what was inserted, removed or moved, then formulas, then values.
 
-Rows and columns are aligned by the kind of their cells, not by their values: a heading counts by
-its text, a formula by its operations, a number by being a number. So a changed input is one
-difference, an inserted row is one, and each formula is compared after its references have followed
-the move. Where cells can be matched in several ways, the one that leaves the fewest differences is
-reported.
+`matching.py` finds out which sheets, rows and columns are the same; `layout.py` says what moved,
+and whether a reference in a formula has followed. Only what the files store is compared: nothing is
+calculated. A value that is not stored is given by its formula and by the cells that this reads.
 """
 
 import math
-import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 from decimal import Decimal
-from itertools import groupby, product
-from operator import itemgetter
 from pathlib import Path
 from unicodedata import normalize
 
-from openpyxl.utils.cell import get_column_letter
+from replication.check.difference import Difference, counted
+from replication.check.following import Reading, calculation_order
+from replication.check.layout import Layout
+from replication.check.references import Reference, words
+from spreadsheets.foreign import Book, Cell, Position, Value, read
 
-from replication.check.examination import Difference
-from replication.check.matching import Cell, Shifts, pairings, same_sheets, touching
-from replication.check.table import runs, span
-from replication.check.words import count
-from spreadsheets.foreign import Position, Value, read
-from spreadsheets.recalculation import Calculation, Formula, Piece, calculate, parse
-
-KINDS = ("added", "removed", "moved", "name", "formula", "value")
+KINDS = ("setting", "added", "removed", "moved", "name", "formula", "value")
 """The kinds of differences that `diff` reports."""
 
 LAST = "only the last digits of the values differ"
@@ -34,6 +26,10 @@ _LAST_DIGITS = 1e-14
 """Relative difference up to which `LAST` is said: some programs store only 15 digits."""
 FOLLOWS = "the values differ, as do "
 """How the explanation of a value begins that follows from another difference."""
+_DAYS = 1462
+"""Days between 1 January 1900, as Excel counts, and 1904: the day 0 of the other date system."""
+_FEW = 3
+"""So few formulas may store 0 because they are calculated."""
 
 
 @dataclass(frozen=True)
@@ -76,324 +72,248 @@ def _rounds(exact: float, rounded: float, digits: int) -> bool:
 def diff(
     a: Path, b: Path, *, values_only: bool = False, allowed: Tolerance | None = None
 ) -> "Comparison":
-    """Compare two workbooks. Raises WorkbookError for a file that cannot be read."""
-    comparison = Comparison(calculate(read(a)), calculate(read(b)), allowed or Tolerance())
-    comparison.layout()
-    formulas: _Differing = {}
-    if not values_only:
-        comparison.names()
-        formulas = comparison.differing(comparison.formulas)
-    comparison.group(formulas, "formula")
-    values = comparison.differing(comparison.values)
-    comparison.group(comparison.traced(values, formulas), "value")
-    comparison.differences.sort(key=lambda d: d.rank)
-    return comparison
+    """Compare two workbooks. Raises WorkbookError for a file that cannot be read.
 
-
-class Comparison:
-    """The result of `coldspray diff`: causes in order of calculation, then what follows from them.
-
-    `new_place` maps each cell of the first workbook to the same cell in the second. A difference is
-    placed in the second workbook, or in the first if the second has no such cell.
+    `values_only`: formulas are compared only where one of the files stores no value.
     """
+    before, after = (_without_zeros(read(path)) for path in (a, b))
+    return Comparison(before, after, values_only, allowed or Tolerance())
 
-    def __init__(self, before: Calculation, after: Calculation, tolerance: Tolerance) -> None:
-        self.before, self.after, self.tolerance = before, after, tolerance
-        self.match({})
-        self.differences: list[Difference] = []
 
-    def match(self, new_place: Mapping[Position, Position]) -> None:
-        """Take these cells of the two workbooks as the same."""
-        self.new_place, self.shifts = {**new_place}, Shifts(new_place)
-        self.matched = set(new_place.values())
+def _without_zeros(book: Book) -> Book:
+    """The book without the values of formulas, if 0 is stored for each of many; else unchanged."""
+    stored = [cell.value for _, cell in book.cells() if cell.formula]
+    if len(stored) <= _FEW or any(type(value) is not float or value != 0 for value in stored):
+        return book
+    note = "every formula stores 0, as some programs write it: none is calculated"
+    sheets = {
+        sheet: {at: c._replace(value=None) if c.formula else c for at, c in cells.items()}
+        for sheet, cells in book.sheets.items()
+    }
+    return replace(book, sheets=sheets, notes=(*book.notes, note))
 
-    def add(
-        self, kind: str, cells: Sequence[Position], was: Value | None, now: Value | None, text: str
-    ) -> None:
-        """Add a difference at the first of some cells; layout ranks first, last digits last."""
-        place, sheets = cells[0], list(self.after.book.sheets)
-        rank: tuple[float, ...] = (0, sheets.index(place[0]) if place[0] in sheets else 0)
-        if kind in ("formula", "value"):  # typed cells, then formulas in order of calculation
-            rank = (1, self.after.order.get(place, -1), kind == "value")
-        if text.startswith((FOLLOWS, LAST)):
-            rank = (3 if text.startswith(LAST) else 2, *rank)
-        self.differences.append(Difference(kind, tuple(cells), was, now, text, rank))
 
-    # ---- where each cell has gone
-
-    def layout(self) -> None:
-        """Match the sheets, then the cells of each pair of sheets."""
-        partners = same_sheets(self.before, self.after)
-        for name in self.before.book.sheets:
-            if name not in partners:
-                self.add("removed", [(name, 1, 1)], name, None, "the sheet is gone")
-        for name in self.after.book.sheets:
-            if name not in partners.values():
-                self.add("added", [(name, 1, 1)], None, name, "the sheet is new")
-        for name, partner in partners.items():
-            if name != partner:
-                self.add("moved", [(partner, 1, 1)], name, partner, "the sheet is renamed")
-            self.align(name, partner)
-        self.match(self.new_place)
-
-    def align(self, name: str, partner: str) -> None:
-        """Match the cells of two sheets in the way that leaves the fewest differences."""
-        old, new = self.before.book.sheets[name], self.after.book.sheets[partner]
-        least = math.inf
-        for pairs in pairings(self.before, name, self.after, partner):
-            trial = Comparison(self.before, self.after, self.tolerance)
-            trial.match({(name, *cell): (partner, *to) for cell, to in pairs.items()})
-            trial.moves(name, partner)
-            trial.unmatched("removed", name, old.keys() - pairs.keys())
-            trial.unmatched("added", partner, new.keys() - set(pairs.values()))
-            if (size := trial.size()) < least:
-                best, least = trial, size
-            if least <= 1:  # no other way can leave fewer
-                break
-        self.new_place |= best.new_place
-        self.differences += best.differences
-
-    def size(self) -> int:
-        """How many cells differ, not counting numbers that only have another value.
-
-        A cell whose text is replaced counts twice: as one removed and one added.
-        """
-        contents = [now for _, now, _ in self.differing(self.values).values()]
-        return (
-            sum(1 if d.kind == "moved" else len(d.cells) for d in self.differences)
-            + len(self.differing(self.formulas))
-            + 2 * sum(not isinstance(now, float) for now in contents)
-        )
-
-    def unmatched(self, kind: str, sheet: str, cells: Iterable[Cell]) -> None:
-        """Report cells that only one of two sheets has, block by block."""
-        is_new = kind == "added"
-        for block in touching(cells):
-            shown: Value | None = span(block)
-            if len(block) == 1:
-                cell = (self.after if is_new else self.before).book[sheet, *block[0]]
-                shown = cell.formula or cell.value
-            was, now = (None, shown) if is_new else (shown, None)
-            verb = "is" if len(block) == 1 else "are"
-            text = f"{count(len(block), 'cell')} {verb} {'new' if is_new else 'gone'}"
-            self.add(kind, [(sheet, *cell) for cell in block], was, now, text)
-
-    def moves(self, name: str, partner: str) -> None:
-        """Report cells of a sheet that moved: whole rows and columns first, then blocks."""
-        groups: dict[Cell, list[Cell]] = {}  # cells by how far down and right they moved
-        # How far the cells of each row (0) and column (1) moved, by its old and its new number.
-        by_old: dict[Cell, set[int]] = {}
-        by_new: dict[Cell, set[int]] = {}
-        for (_, *old), (_, *new) in self.new_place.items():
-            shift = (new[0] - old[0], new[1] - old[1])
-            groups.setdefault(shift, []).append((old[0], old[1]))
-            for axis in (0, 1):
-                by_old.setdefault((axis, old[axis]), set()).add(shift[axis])
-                by_new.setdefault((axis, new[axis]), set()).add(shift[axis])
-        whole = {
-            shift: cells
-            for shift, cells in groups.items()
-            if all(
-                len(by_old[axis, cell[axis]]) == len(by_new[axis, cell[axis] + shift[axis]]) == 1
-                for cell, axis in product(cells, (0, 1))
-            )
-        }
-        for axis in (0, 1):
-            shifts = {cell[axis]: shift[axis] for shift, cells in whole.items() for cell in cells}
-            self.moved_lines(name, partner, axis, shifts)
-        for shift in sorted(groups.keys() - whole.keys() - {(0, 0)}):
-            self.moved_blocks(name, partner, sorted(groups[shift]), shift)
-
-    def moved_lines(self, name: str, partner: str, axis: int, shifts: Mapping[int, int]) -> None:
-        """Report rows (axis 0) or columns (axis 1) that moved; `shifts` says how far each did.
-
-        Lines that moved together are one difference. So are two groups of lines that have changed
-        places, and more than two that are only in another order.
-        """
-        lines, show = (("rows", str), ("columns", get_column_letter))[axis]
-        grouped = groupby(sorted(shifts.items()), key=itemgetter(1))
-        moved = [(shift, [line for line, _ in pairs]) for shift, pairs in grouped if shift]
-        old_number = {line + shift: line for shift, run in moved for line in run}
-        is_reordered = bool(moved) and old_number.keys() == set(old_number.values())
-        if is_reordered and len(moved) == 2 and len(moved[0][1]) != len(moved[1][1]):
-            # The shorter group moved; the longer one only made room for it.
-            moved, is_reordered = [min(moved, key=lambda group: len(group[1]))], False
-
-        def shown(run: Sequence[int], shift: int = 0) -> str:
-            first, last = (show(end + shift) for end in (run[0], run[-1]))
-            return f"{lines[:-1]} {first}" if len(run) == 1 else f"{lines} {first} to {last}"
-
-        def report(line: int, was: str, now: str, text: str) -> None:
-            place = (partner, 1, line) if axis else (partner, line, 1)
-            self.add("moved", [place], was, now, text)
-
-        if is_reordered and len(moved) > 2:
-            every = range(min(old_number), max(old_number) + 1)
-            order = ", ".join(show(old_number.get(line, line)) for line in every)
-            text = f"{shown(every)} of {name!r} are in another order"
-            report(every[0], shown(every), f"{lines} {order}", text)
-        elif is_reordered:
-            first, second = (shown(run) for _, run in moved)
-            text = f"{first} and {second} of {name!r} have changed places"
-            report(min(old_number), first, second, text)
-        else:
-            for shift, run in moved:
-                was, now = shown(run), shown(run, shift)
-                verb = "is" if len(run) == 1 else "are"
-                report(run[0] + shift, was, now, f"{was} of {name!r} {verb} now {now}")
-
-    def moved_blocks(self, name: str, partner: str, cells: Sequence[Cell], shift: Cell) -> None:
-        """Report cells that moved together, as one block if nothing else stood among them."""
-        for block in [cells] if self.fill_area(name, cells) else touching(cells):
-            moved = [(row + shift[0], column + shift[1]) for row, column in block]
-            was, now = span(block), span(moved)
-            text = f"{was} now stands at {now}"
-            if not self.fill_area(name, block):
-                text = f"{count(len(block), 'cell')} of {was} now stand at {now}"
-            self.add("moved", [(partner, *cell) for cell in moved], was, now, text)
-
-    def fill_area(self, name: str, cells: Sequence[Cell]) -> bool:
-        """Whether the smallest area around some cells of the first workbook holds nothing else."""
-        sheet = self.before.book.sheets[name]
-        rows, columns = (range(min(axis), max(axis) + 1) for axis in zip(*cells, strict=True))
-        area = product(rows, columns) if len(rows) * len(columns) < len(sheet) else sheet
-        return len(cells) == sum(r in rows and c in columns and (r, c) in sheet for r, c in area)
-
-    # ---- what names stand for, and what the cells hold
-
-    def names(self) -> None:
-        """Report names that are new, gone, or stand for something else."""
-        books = self.before.book, self.after.book
-        corners = [(next(iter(book.sheets)), 1, 1) for book in books]
-        for name, shown in {n.upper(): n for book in books for n in book.names}.items():
-            was, now = (book.meanings.get(name) for book in books)
-            meanings = zip((was, now), corners, books, strict=True)
-            a, b = (parse(f"={text}", corner, book) for text, corner, book in meanings)
-            what = "stands for something else"
-            if was is None or now is None:
-                what = "is new" if was is None else "is gone"
-            elif self.alike(a, b) and _fixed(a) == _fixed(b):
-                continue
-            old = self.new_place.get(a.areas[0].corner, corners[1]) if a.areas else corners[1]
-            place = b.areas[0].corner if b.areas else old
-            was, now = (text or "not defined" for text in (was, now))
-            self.add("name", [place], was, now, f"the name {shown} {what}")
-
-    def differing(self, compare: Callable[[Position, Position], "_Differs | None"]) -> "_Differing":
-        """The cells that differ, by their places in the second workbook."""
-        pairs = self.new_place.items()
-        return {new: differs for old, new in pairs if (differs := compare(old, new))}
-
-    def traced(self, values: "_Differing", formulas: "_Differing") -> "_Differing":
-        """The values that differ, each with the other difference that it follows from, if any."""
-        removed, added = (
-            {cell for d in self.differences if d.kind == kind for cell in d.cells}
-            for kind in ("removed", "added")
-        )
-        old_place = {new: old for old, new in self.new_place.items()}
-        # A value that differs within the tolerance may still make others differ beyond it.
-        changed = added | {
-            new
-            for new, old in old_place.items()
-            if _value(self.before, old) != _value(self.after, new)
-        }
-        traced = {}
-        for new, (was, now, text) in values.items():
-            if text != LAST and new in formulas:
-                text = f"{FOLLOWS}the formulas"
-            elif text != LAST and not (
-                changed.isdisjoint(self.after.precedents(new))
-                and removed.isdisjoint(self.before.precedents(old_place[new]))
-            ):
-                text = f"{FOLLOWS}the cells that they read"
-            traced[new] = was, now, text
-        return traced
-
-    def group(self, differing: "_Differing", kind: str) -> None:
-        """Add differences of one kind; equal ones in neighbouring cells of a column are one.
-
-        All that differ only in last digits are one.
-        """
-        every = list(runs({place: text for place, (*_, text) in differing.items()}))
-        groups = [run for run in every if differing[run[0]][2] != LAST]
-        last = [place for run in every if differing[run[0]][2] == LAST for place in run]
-        for run in filter(None, (*groups, last)):
-            was, now, text = differing[run[0]]
-            where = "more" if text == LAST else "after it"
-            more = f", also in {count(len(run) - 1, 'cell')} {where}" if len(run) > 1 else ""
-            self.add(kind, run, was, now, text + more)
-
-    def formulas(self, old: Position, new: Position) -> "_Differs | None":
-        """How two cells differ in their formulas, if they do."""
-        a, b = self.before.formulas.get(old), self.after.formulas.get(new)
-        texts = self.before.book[old].formula, self.after.book[new].formula
-        if a and b:
-            if self.alike(a, b):
-                by_name = not any("$" in str(text) for text in texts)
-                but = "one of them by a name" if by_name else "$ fixes different references"
-                text = f"the formulas read the same cells, but {but}"
-                return None if _fixed(a) == _fixed(b) else (*texts, text)
-            text = "the text is the same, but it no longer reads the same cells"
-            return (*texts, text if texts[0] == texts[1] else "the formulas differ")
-        if b:
-            return self.before.values.get(old), texts[1], "a formula stands in place of a value"
-        if a:
-            return texts[0], self.after.values.get(new), "a value stands in place of a formula"
-        return None
-
-    def alike(self, a: Formula, b: Formula) -> bool:
-        """Whether two formulas are the same, piece by piece."""
-        pairs = zip(a.pieces, b.pieces, strict=False)
-        return len(a.pieces) == len(b.pieces) and all(self.same(p, q) for p, q in pairs)
-
-    def same(self, p: Piece, q: Piece) -> bool:
-        """Whether two pieces of formulas are the same, and read the same cells if they read any."""
-        if p.kind == q.kind == "number":
-            return float(p.text) == float(q.text)
-        if p.area is None or q.area is None:
-            texts = {r.text.upper() if r.kind == "function" else r.text for r in (p, q)}
-            return p.kind == q.kind and len(texts) == 1
-        stays = p.area == q.area and p.area.corner in p.area.ends  # no whole column or row
-        return all(
-            self.new_place[old] == new
-            if old in self.new_place
-            else (stays and new not in self.matched)  # gone, or blank as before
-            or (old not in self.before.values and self.shifts.allow(old, new))
-            for old, new in zip(p.area.ends, q.area.ends, strict=True)
-        )
-
-    def values(self, old: Position, new: Position) -> "_Differs | None":
-        """How two cells differ in their values, if they do."""
-        if old in self.before.unknown or new in self.after.unknown:
-            return None  # not computed, so there is nothing to compare: the notes say so
-        a, b = _value(self.before, old), _value(self.after, new)
-        if isinstance(a, float) and isinstance(b, float):
-            resolution = max(self.before.book.resolution, self.after.book.resolution)
-            if self.tolerance.equal(a, b) or abs(a - b) <= resolution:
-                return None
-            small = math.isclose(a, b, rel_tol=_LAST_DIGITS)
-            return a, b, LAST if small else "the values differ"
-        if type(a) is type(b) and a == b:
-            return None
-        if isinstance(a, str) and isinstance(b, str):
-            return a, b, _how_texts_differ(a, b)
-        # Quotes tell the text 'TRUE' from the truth value.
-        a, b = (
-            f"'{x}'" if isinstance(x, str) and x.upper() in ("TRUE", "FALSE") else x for x in (a, b)
-        )
-        return a, b, "the contents differ"
+def not_stored(book: Book) -> list[Position]:
+    """The formulas for which a book stores no value."""
+    return [place for place, cell in book.cells() if cell.formula and cell.value is None]
 
 
 _Differs = tuple[Value | None, Value | None, str]
 """What a cell held, what it holds now, and how the two differ."""
 _Differing = Mapping[Position, _Differs]
+"""The cells that differ, by their places in the second workbook."""
 
 
-def _value(calculation: Calculation, place: Position) -> Value | None:
-    """The stored value of a cell, or the computed one where none is stored."""
-    stored = calculation.book[place].value
-    value = calculation.values.get(place) if stored is None else stored
-    return None if value == "" else value
+class Comparison:
+    """The result of `coldspray diff`: causes in order of calculation, then what follows from them.
+
+    A difference is placed in the second workbook, or in the first if the second has no such cell.
+    """
+
+    def __init__(self, before: Book, after: Book, values_only: bool, tolerance: Tolerance) -> None:
+        self.before, self.after, self.tolerance = before, after, tolerance
+        self.layout = Layout(before, after)
+        self.old_place = {new: old for old, new in self.pairs()}
+        formulas = {
+            new: differs
+            for new, old in self.old_place.items()
+            if (not values_only or _has_no_value(before[old], after[new]))
+            and (differs := self.formula(old, new))
+        }
+        values = {
+            new: differs for new, old in self.old_place.items() if (differs := self.value(old, new))
+        }
+        self.differences = [
+            *self.settings(),
+            *self.layout.differences,
+            *(() if values_only else self.names()),
+            *self.contents(formulas, values),
+        ]
+
+    def pairs(self) -> Iterator[tuple[Position, Position]]:
+        """The cells that both workbooks have, except those that surely hold the same."""
+        for sheet, places in self.layout.places.items():
+            partner = self.layout.partners[sheet]
+            old, new = self.before.sheets[sheet], self.after.sheets[partner]
+            for cell, to in places.items():
+                same = old[cell] == new[to] and (
+                    self.layout.is_in_place or old[cell].formula is None
+                )
+                if not same:
+                    yield (sheet, *cell), (partner, *to)
+
+    def settings(self) -> Iterator[Difference]:
+        """Report date systems that differ: the same number is then another date."""
+        systems = [1904 if book.date1904 else 1900 for book in (self.before, self.after)]
+        if systems[0] != systems[1]:
+            was, now = (f"dates from {year}" for year in systems)
+            place = (next(iter(self.after.sheets)), 1, 1)
+            text = f"the date system differs: the same number is a date {_DAYS:,} days apart"
+            yield Difference("setting", (place,), was, now, text)
+
+    def names(self) -> Iterator[Difference]:
+        """Report names that are new, gone, or stand for something else."""
+        books = self.before, self.after
+        corners = [(next(iter(book.sheets)), 1, 1) for book in books]
+        for name, shown in {n.upper(): n for book in books for n in book.names}.items():
+            was, now = (book.meanings.get(name) for book in books)
+            what = "stands for something else"
+            if was is None or now is None:
+                what = "is new" if was is None else "is gone"
+            elif self.how_formulas_differ(f"={was}", f"={now}", *corners) is None:
+                continue
+            place = self._place_of(now or was or "")
+            was, now = (text or "not defined" for text in (was, now))
+            yield Difference("name", (place,), was, now, f"the name {shown} {what}")
+
+    def _place_of(self, meaning: str) -> Position:
+        """The first cell that a name stands for, or the first of the workbook."""
+        corner = (next(iter(self.after.sheets)), 1, 1)
+        areas = (word for word in words(f"={meaning}") if isinstance(word, Reference))
+        area = next(areas, None)
+        sheet = None if area is None else self.after.called.get(area.sheet.upper())
+        return corner if area is None or sheet is None else (sheet, area.top, area.left)
+
+    # ---- cell by cell
+
+    def formula(self, old: Position, new: Position) -> _Differs | None:
+        """How two cells differ in their formulas, if they do."""
+        a, b = self.before[old], self.after[new]
+        if a.formula is None and b.formula is None:
+            return None
+        shown = _shown_formula(a), _shown_formula(b)
+        if a.formula is None:
+            return *shown, "a formula stands in place of a value"
+        if b.formula is None:
+            return *shown, "a value stands in place of a formula"
+        if (a.array is None) != (b.array is None):
+            kinds = ("an array formula", "an ordinary formula")[:: 1 if b.array else -1]
+            return *shown, f"{kinds[0]} stands in place of {kinds[1]}"
+        if a.array and b.array and _size(a.array) != _size(b.array):
+            return *shown, "the array formula fills another number of rows or columns"
+        text = self.how_formulas_differ(a.formula, b.formula, old, new)
+        return (*shown, text) if text else None
+
+    def how_formulas_differ(self, a: str, b: str, old: Position, new: Position) -> str | None:
+        """Say how two formulas differ that stand in what is the same cell; None if they do not."""
+        if a == b and self.layout.is_in_place:
+            return None
+        p, q = words(a), words(b)
+        are_alike = len(p) == len(q) and all(
+            self.same(x, y, old, new) for x, y in zip(p, q, strict=True)
+        )
+        if not are_alike:
+            moved = "the text is the same, but it no longer reads the same cells"
+            return moved if a == b else "the formulas differ"
+        fixed = ([word.fixed for word in x if isinstance(word, Reference)] for x in (p, q))
+        if next(fixed) != next(fixed):
+            return "the formulas read the same cells, but $ fixes different references"
+        return None
+
+    def same(self, a: str | Reference, b: str | Reference, old: Position, new: Position) -> bool:
+        """Whether two words of formulas are the same, and read the same cells if they read any."""
+        if isinstance(a, Reference) and isinstance(b, Reference):
+            return self.layout.follows(a, b, old, new)
+        return a == b
+
+    def value(self, old: Position, new: Position) -> _Differs | None:
+        """How two cells differ in their stored values, if they do."""
+        p, q = self.before[old], self.after[new]
+        if _has_no_value(p, q):
+            return None
+        a, b = (None if cell.value == "" else cell.value for cell in (p, q))
+        if type(a) is type(b) and a == b and p.error == q.error:
+            return None
+        if isinstance(a, float) and isinstance(b, float):
+            return self.numbers(a, b)
+        if p.error == q.error and isinstance(a, str) and isinstance(b, str):
+            return a, b, _how_texts_differ(a, b)
+        text = "the contents differ"
+        if isinstance(a, str) and isinstance(b, str):
+            kinds = ("an error", "a text") if q.error else ("a text", "an error")
+            text = f"{kinds[0]} stands in place of {kinds[1]}"
+        return _quoted(p), _quoted(q), text
+
+    def numbers(self, a: float, b: float) -> _Differs | None:
+        """How two numbers differ, if they do."""
+        resolution = max(self.before.resolution, self.after.resolution)
+        if self.tolerance.equal(a, b) or abs(a - b) <= resolution:
+            return None
+        if math.isclose(a, b, rel_tol=_LAST_DIGITS):
+            return a, b, LAST
+        if self.before.date1904 != self.after.date1904 and abs(a - b) == _DAYS:
+            return a, b, "the values differ; as dates they are the same, in the other date system"
+        return a, b, "the values differ"
+
+    # ---- in order of calculation
+
+    def contents(self, formulas: _Differing, values: _Differing) -> Iterator[Difference]:
+        """Report formulas and values: causes, then what follows from them, then last digits."""
+        traced = self.traced(formulas, values)
+        reading = Reading(self.after, {**formulas, **traced})
+        number = {sheet: k for k, sheet in enumerate(self.after.sheets)}
+        typed_first = sorted(
+            {**formulas, **traced},
+            key=lambda at: (self.after[at].formula is not None, number[at[0]], at[1:]),
+        )
+        order = calculation_order(typed_first, reading)
+        found = [*_grouped("formula", formulas), *_grouped("value", traced)]
+
+        def rank(difference: Difference) -> tuple[int, int, bool]:
+            text = difference.explanation
+            follows = 2 if text.startswith(LAST) else int(text.startswith(FOLLOWS))
+            return follows, order[difference.place], difference.kind == "value"
+
+        yield from sorted(found, key=rank)
+
+    def traced(self, formulas: _Differing, values: _Differing) -> _Differing:
+        """The values that differ, each with the other difference that it follows from, if any."""
+        removed, added = (
+            [cell for d in self.layout.differences if d.kind == kind for cell in d.cells]
+            for kind in ("removed", "added")
+        )
+        # A value that differs within the tolerance may still make others differ beyond it.
+        changed = [
+            new
+            for new, old in self.old_place.items()
+            if self.before[old].value != self.after[new].value
+        ]
+        now, was = Reading(self.after, {*added, *changed, *formulas}), Reading(self.before, removed)
+        traced = {}
+        for new, (a, b, text) in values.items():
+            if text != LAST and new in formulas:
+                text = f"{FOLLOWS}the formulas"
+            elif text != LAST and (any(now.read_by(new)) or any(was.read_by(self.old_place[new]))):
+                text = f"{FOLLOWS}the cells that they read"
+            traced[new] = a, b, text
+        return traced
+
+
+def _has_no_value(a: Cell, b: Cell) -> bool:
+    """Whether one of two cells holds a formula for which no value is stored."""
+    return any(cell.formula is not None and cell.value is None for cell in (a, b))
+
+
+def _shown_formula(cell: Cell) -> Value | None:
+    """The formula of a cell, in braces if it is an array formula; or else its value."""
+    if cell.formula is None:
+        return _quoted(cell)
+    return f"{{{cell.formula}}}" if cell.array else cell.formula
+
+
+def _size(area: tuple[int, int, int, int]) -> tuple[int, int]:
+    top, left, bottom, right = area
+    return bottom - top, right - left
+
+
+def _quoted(cell: Cell) -> Value | None:
+    """The value of a cell; quotes tell a text that spells a truth value or an error from one."""
+    text = cell.value
+    if isinstance(text, str) and not cell.error:
+        if text.upper() in ("TRUE", "FALSE") or text.startswith("#"):
+            return f"'{text}'"
+        return text or None
+    return text
 
 
 def _how_texts_differ(a: str, b: str) -> str:
@@ -410,6 +330,24 @@ def _how_texts_differ(a: str, b: str) -> str:
     return f"the texts look alike: U+{ord(p):04X} is now U+{ord(q):04X}"
 
 
-def _fixed(formula: Formula) -> list[str]:
-    """Which of its references are fixed by $: in R1C1 notation those have no brackets."""
-    return [re.sub(r"-?\d+", "", p.shape.rpartition("!")[2]) for p in formula.pieces if p.area]
+def _grouped(kind: str, differing: _Differing) -> Iterator[Difference]:
+    """Yield differences of one kind; equal ones in neighbouring cells of a column are one.
+
+    All that differ only in last digits are one.
+    """
+    runs: list[list[Position]] = []
+    last: list[Position] = []
+    for place in sorted(differing, key=lambda place: (place[0], place[2], place[1])):
+        sheet, row, column = place
+        above, text = (sheet, row - 1, column), differing[place][2]
+        if text == LAST:
+            last.append(place)
+        elif runs and runs[-1][-1] == above and differing[above][2] == text:
+            runs[-1].append(place)
+        else:
+            runs.append([place])
+    for run in filter(None, (*runs, last)):
+        was, now, text = differing[run[0]]
+        where = "more" if text == LAST else "after it"
+        more = f", also in {counted(len(run) - 1, 'cell')} {where}" if len(run) > 1 else ""
+        yield Difference(kind, tuple(run), was, now, text + more)

@@ -1,31 +1,25 @@
-"""Everything known about one table: its inputs, the scheme its rows follow, its differences."""
+"""A difference between a workbook and the report's sheet, and all that is known about one table."""
 
 import math
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
 
-from replication.check.scheme import BRAKES, PARTS, REPORT, Case, Rows, Rule
-from replication.check.table import Line, Table, address, span
-from replication.check.words import COLUMNS, count, power_of_ten, scaled
+from replication.check import difference
+from replication.check.fit import Fit, RightForce
+from replication.check.roles import Input
+from replication.check.six import Six
+from replication.check.table import Table
+from replication.check.words import COLUMNS
+from spreadsheets.evaluate import Error
 from spreadsheets.foreign import Position, Value
 
 KINDS = (
-    "stale value", "typed number", "odd formula", "typed constant", "operation order",
-    "other scheme", "other input", "unit", "printed number", "not calculated",
+    "stale value", "typed number", "odd formula", "typed constant", "other scheme", "other input",
+    "unit", "printed number", "not calculated",
 )  # fmt: skip
 NO_FAULT = frozenset({"other input", "not calculated"})
 """Kinds that are reported without making a workbook faulty."""
-
-NEAR = 1e-12
-"""Relative distance up to which a cell agrees with a rule. A rule rounds some twenty times, 2e-15
-at worst, and a file saved with 15 digits adds 3e-14. A constant typed with only ten digits differs
-by more."""
-
-Change = Callable[[Case], Case] | Mapping[str, Rule]
-"""How a difference changes the report's sheet: a function from the intended case to a wrong one, or
-other rules for some parts of the scheme (no rules at all if only the stop differs)."""
 
 
 def near(a: float | Fraction, b: float) -> bool:
@@ -34,192 +28,115 @@ def near(a: float | Fraction, b: float) -> bool:
 
 
 @dataclass(frozen=True)
-class Difference:
+class Difference(difference.Difference):
     """One way in which a workbook departs from the report's sheet.
 
-    `cells` lists every cell concerned, the one to look at first. `rank` sorts differences in the
-    order in which their cells are calculated. `effect` is the final depth [m] that this difference
-    would give if it were the only one; `change` says how to compute that.
+    `rank` sorts differences in the order in which their cells are calculated.
     """
 
-    kind: str
-    cells: tuple[Position, ...]
-    expected: Value | None
-    found: Value | None
-    explanation: str
-    rank: tuple[float, ...]
-    change: Change | None = field(default=None, compare=False)
-    effect: float | None = None
-
-    @property
-    def place(self) -> Position:
-        """The cell to look at."""
-        return self.cells[0]
-
-    def record(self) -> dict[str, Any]:
-        """Return the JSON entry, in which `cells` is a range and `count` the number of cells."""
-        sheets, rows, columns = map(set, zip(*self.cells, strict=True))
-        area = (max(rows) - min(rows) + 1) * (max(columns) - min(columns) + 1)
-        cells = span(cell[1:] for cell in self.cells)
-        if len(self.cells) != area or len(sheets) > 1:
-            cells = f"{address(self.place)} and {count(len(self.cells) - 1, 'cell')} more"
-        values = self.expected, self.found
-        expected, found = (str(x).upper() if isinstance(x, bool) else x for x in values)
-        return {
-            "sheet": self.place[0], "cell": address(self.place), "kind": self.kind,
-            "expected": expected, "found": found, "explanation": self.explanation,
-            "cells": cells, "count": len(self.cells), "final_depth": self.effect,
-        }  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Input:
-    """One input: its value in SI units, its cell (None if no cell holds it), how it was identified.
-
-    `roles` are the inputs that its label may name, `unit` is the unit that the workbook states, and
-    `factor` converts the cell's number to SI units.
-    """
-
-    role: str
-    si: float
-    place: Position | None
-    how: str
-    label: str = ""
-    unit: str | None = None
-    factor: Fraction = Fraction(1)
-    roles: frozenset[str] = frozenset()
+    rank: tuple[float, ...] = ()
 
 
 @dataclass
 class Examination:
-    """Everything known about one table; `judge` adds to it.
+    """Everything known about one table.
 
-    `rows` holds the table's numbers with the case and the rules that they follow, `intended` the
-    case that they should follow. The two cases differ where, for example, the cell of the mass does
-    not hold what radius and density give. `powers` are the powers of ten that convert each column
-    to SI units; `negative` says that the workbook's decelerations are negative. `read` are all
-    cells outside the table that it reads; `derived` are the inputs for mass, diameter and
-    resistance; `unread` are labelled inputs that the table does not read. `right_depth` [m] is the
-    final depth by the report's scheme with the intended inputs, None if that run does not end.
-    `differing` counts the cells that differ from that run, causes and consequences alike.
+    `fitted` holds its six numbers in the units of its columns, `intended` those in SI units that
+    its inputs should give. `units` are the decimal logarithms of the units of its columns; `firm`
+    says that the workbook states the unit of the depths, or of the radius, and `firm_speed` that it
+    states that of the velocities. `inputs`
+    are all inputs that are known, `read` all cells outside the table that it rests on. `corrected`
+    is an input whose number is in another unit, with its right value. `right_depth` [m] is the
+    final depth of the report's scheme with the intended inputs. `stop_row` is the row of the stop
+    where rows after it are spare or at rest.
     """
 
     table: Table
-    inputs: Mapping[str, Input]
-    rows: Rows
-    intended: Case
-    powers: Mapping[str, int]
-    negative: bool
+    fitted: Fit
+    inputs: dict[str, Input] = field(default_factory=dict)
+    units: dict[str, float] = field(default_factory=dict)
+    firm: bool = False
+    firm_speed: bool = False
     read: frozenset[Position] = frozenset()
-    derived: Mapping[str, Input] = field(default_factory=dict)
-    unread: tuple[Input, ...] = ()
-    differences: list[Difference] = field(default_factory=list)
+    intended: Six | None = None
+    stop_velocity: float = 1.0
     right_depth: float | None = None
-    differing: int = 0
+    ends: bool = True
+    stop_row: int | None = None
+    corrected: tuple[str, float] | None = None
+    differences: list[Difference] = field(default_factory=list)
 
-    def __post_init__(self) -> None:
-        self.calculation = self.table.calculation
+    def on_own_sheets(self, place: Position) -> bool:
+        """Whether a cell is on the sheet of the table, or on one from which it reads.
+
+        A label elsewhere may speak of another table.
+        """
+        return place[0] in {self.table.sheet, *(sheet for sheet, _, _ in self.read)}
 
     @property
-    def case(self) -> Case:
-        """The case that the rows actually follow."""
-        return self.rows.case
-
-    def following(self, case: Case) -> "Examination":
-        """Return a copy of this examination whose rows follow another case."""
-        return replace(self, rows=replace(self.rows, case=case))
-
-    def follows(self, part: str, rule: Rule, k: int) -> bool | None:
-        """Whether row k follows a rule; None if cells are missing."""
-        rows = replace(self.rows, rules=REPORT | {part: rule})
-        role, row = rows.shows(part, k)
-        wanted, value = rows.wanted(role, row), rows(role, row)
-        if wanted is None or value is None:
-            return None
-        tolerance = NEAR if self.table.digits is None else 10.0 ** (2 - self.table.digits)
-        size = abs(wanted)
-        if role.startswith("velocity"):
-            speed = abs(rows("velocity_initial", k) or 0.0)
-            # If no column holds the deceleration, it carries the rounding error of the velocities.
-            size = speed if part == "end" else abs(speed - wanted) + 1e-2 * speed
-        return abs(value - wanted) <= tolerance * size
-
-    def share(self, part: str, rule: Rule) -> float:
-        """Return the share of the complete rows that follow a rule."""
-        rows = range(PARTS[part][1], self.table.steps + 1)
-        judged = [good for k in rows if (good := self.follows(part, rule, k)) is not None]
-        return sum(judged) / len(judged) if judged else 0.0
-
-    def agreement(self, rules: Sequence[Rule] = BRAKES[:2]) -> float:
-        """Return the share of rows whose deceleration follows the best-fitting of some rules."""
-        return max(self.share("brake", rule) for rule in rules)
+    def last(self) -> int:
+        """The number of the row in which the particle stops, or the last."""
+        return self.table.steps if self.stop_row is None else self.stop_row
 
     @property
     def final_depth(self) -> float | None:
         """The depth in the last row [m]."""
-        return self.rows("depth", self.table.steps)
+        value = self.table.number("depth", self.last)
+        return None if value is None else float(value * 10.0 ** self.units.get("depth", 0.0))
 
-    def power_shown(self, kind: str, value: float, k: int) -> int | None:
-        """Return n if a value is 10^n times the depth of row k, or its "ratio" x/R; else None."""
-        depth = self.rows("depth", k) or 0.0
-        over = self.case.radius if kind == "ratio" else 1.0
-        return power_of_ten(value * over / depth) if depth > 0 else None
+    def right_force(self, off: float | None = None) -> RightForce:
+        """The force that the inputs give, as far as cells hold them.
+
+        `off` says how a wrong one is off.
+        """
+        known = {
+            role: entry.si for role, entry in self.inputs.items()
+            if entry.place is not None or entry.how == "follows"
+        }  # fmt: skip
+        density, strength = known.get("target_density"), known.get("resistance")
+        D = (
+            2 * known["radius"] * 10.0 ** -self.units.get("depth", 0.0)
+            if "radius" in known
+            else None
+        )
+        start = "velocity_initial" if "velocity_initial" in self.table.lines else "velocity_final"
+        ratio = None
+        if density and strength:
+            ratio = density / (2 * strength) * 10.0 ** (2 * self.units.get(start, 0.0))
+        return RightForce(ratio, D, density, strength, off)
 
     @property
-    def ends(self) -> bool:
-        """Whether the rows run to the stop, so that there is a final depth."""
-        return not any(d.kind == "not calculated" for d in self.differences)
-
-    @property
-    def accused(self) -> set[Position]:
-        """The cells of all faults found so far."""
-        faults = (d for d in self.differences if d.kind not in NO_FAULT)
-        return {cell for fault in faults for cell in fault.cells}
+    def scheme(self) -> str:
+        """The names of the ways that are not the report's."""
+        names = [way.name if way else "unknown" for way in self.fitted.odd]
+        return " and ".join(names) or "the report's"
 
     def add(
-        self,
-        kind: str,
-        cells: Sequence[Position],
-        expected: Value | None,
-        text: str,
+        self, kind: str, cells: Sequence[Position], expected: Value | None, text: str,
         found: Value | None = None,
-        change: Change | None = None,
-    ) -> None:
+    ) -> None:  # fmt: skip
         """Add a difference; the first of its cells is the one to look at.
 
         If `found` is not given, it is the value of that cell.
         """
-        found = self.calculation.values.get(cells[0]) if found is None else found
-        entry = kind, tuple(cells), expected, found, text, self.rank(cells[0]), change
-        self.differences.append(Difference(*entry))
-
-    def line(self, part: str) -> Line:
-        """Return the column in which a part of the scheme can be seen."""
-        return self.table.lines[self.rows.shows(part, 1)[0]]
-
-    @property
-    def start(self) -> Position:
-        """The cell of the first velocity."""
-        return self.table.place(self.table.speed, min(self.rows.columns[self.table.speed]))
+        value = self.table.evaluator.values.get(cells[0]) if found is None else found
+        value = str(value) if isinstance(value, Error) else value
+        entry = Difference(kind, tuple(cells), expected, value, text, self.rank(cells[0]))
+        self.differences.append(entry)
 
     def cells(self, role: str, first: int) -> list[Position]:
-        """Return the cells of a column from row `first` to the last row."""
-        return [self.table.place(role, k) for k in range(first, max(first, self.table.steps) + 1)]
-
-    def shown(self, role: str, value: float | None) -> float | None:
-        """Convert a value from SI units to the unit and the sign of its column."""
-        if value is None:
-            return None
-        sign = -1.0 if role == "deceleration" and self.negative else 1.0
-        return sign * scaled(value, Fraction(10) ** -self.powers[role])
+        """The cells of a column from a row to the last one."""
+        return [self.table.place(role, k) for k in sorted(self.table.rows) if k >= first]
 
     def rank(self, place: Position) -> tuple[float, ...]:
-        """Return a key in order of calculation: inputs, the rows one by one, then results."""
+        """A key in order of calculation: inputs, the rows one by one, then results."""
         if place in self.table.places:
             role, k = self.table.places[place]
             return (1, k, 9 if role == "time" else list(COLUMNS).index(role))
+        order = self.table.evaluator.order.get(place, -1)
         for line in self.table.helpers:
-            if line.covers(place):
-                return (1, (line.index(place) or 0) - self.table.zero, 2.5)
-        order = self.calculation.order.get(place, -1)
+            along = place[2] if line.across else place[1]
+            if place == line.place(along) and along in line.values:
+                rows = {index: k for k, index in self.table.rows.items()}
+                return (1, rows.get(along, 0), 2.5, order)
         return (0 if place in self.read or order < 0 else 2, order)

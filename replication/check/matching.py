@@ -1,270 +1,316 @@
-"""Which sheets and which cells of two workbooks are the same, wherever they stand.
+"""Which sheets, rows and columns of two workbooks are the same, wherever they stand.
 
-Cells are matched by their signatures: a text by itself, a formula by its operations, a number by
-its value or, less strictly, by being a number.
+A line (a row or a column) is known by its contents: by its texts and numbers, and by what its
+formulas do. Equal lines are matched first, then similar ones, then those that stand between matched
+neighbours. Lines need not keep their order.
 """
 
 from bisect import bisect_left
-from collections import Counter
-from collections.abc import Callable, Container, Hashable, Iterable, Iterator, Mapping, Sequence
+from collections import Counter, defaultdict, deque
+from collections.abc import Hashable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from difflib import SequenceMatcher
-from itertools import chain, groupby, product, takewhile
-from operator import itemgetter
-from typing import TypeVar
+from itertools import pairwise, product
+from typing import Any
 
-from spreadsheets.foreign import LAST_COLUMN, LAST_ROW, Position
-from spreadsheets.recalculation import Calculation
-
-_MAX_BLOCKS, _MAX_TRIES = 200, 8
-"""How many blocks are looked for elsewhere, and how many distances are tried for each."""
-_MAX_LINES, _MAX_SHEETS = 4_000, 100
-"""How many changed lines, and sheets without a namesake, are compared each with each."""
+from replication.check.references import outline
+from spreadsheets.foreign import Book
+from spreadsheets.foreign import Cell as Contents
 
 Cell = tuple[int, int]
-T = TypeVar("T")
-K = TypeVar("K", Cell, int)
+"""Row and column."""
+Line = tuple[Any, ...]
+"""What a row or a column holds."""
+
+_RARE = 20
+"""A content that more lines have does not tell lines apart; it also bounds the work."""
+_SHARED = 1 / 3
+"""Similar lines share more than this part of what is rare in the one that has less of it."""
+_TEXT, _NUMBER = 3, 1
+"""How much a text counts, and how much a number or formula, which often repeats by chance."""
+_STABLE = 0.9
+"""A column keeps its contents, in whatever order, if this part of its cells is found again."""
+_MAX_COMPARED, _MAX_SIMILAR = 250_000, 1_000_000
+"""Pairs of lines that are compared: where equal lines repeat, and for what similar ones share."""
+_MAX_SHEETS = 100
+"""Sheets without a namesake that are compared each with each."""
 
 
-def same_sheets(before: Calculation, after: Calculation) -> dict[str, str]:
+def same_sheets(before: Book, after: Book) -> dict[str, str]:
     """Match sheets by name, and the others by their contents, if more than half is the same."""
-    same = {name: name for name in before.book.sheets if name in after.book.sheets}
+    same = {name: name for name in before.sheets if name in after.sheets}
     old, new = (
         {
-            name: _counted(calculation, name)
-            for name in [n for n in calculation.book.sheets if n not in same][:_MAX_SHEETS]
+            name: Counter(keys(book.sheets[name]).values())
+            for name in [name for name in book.sheets if name not in same][:_MAX_SHEETS]
         }
-        for calculation in (before, after)
+        for book in (before, after)
     )
-    shares = (
+    shares = [
         ((old[a] & new[b]).total() / max(old[a].total(), new[b].total(), 1), a, b)
-        for a, b in product(old, new)
-    )
+        for a in old
+        for b in new
+    ]
     for share, a, b in sorted(shares, key=lambda entry: -entry[0]):
         if share > 1 / 2 and a not in same and b not in same.values():
             same[a] = b
     return same
 
 
-def _counted(calculation: Calculation, sheet: str) -> Counter[str]:
-    """How often a sheet holds each signature, with the numbers and without."""
-    signatures = _signatures(calculation, sheet).values()
-    return Counter([*signatures, *map(_without_number, signatures)])
+def keys(cells: Mapping[Cell, Contents]) -> dict[Cell, str]:
+    """What each cell is known by: its text or number, or what its formula does."""
+    return {place: _key(cell) for place, cell in cells.items()}
 
 
-def _signatures(calculation: Calculation, sheet: str) -> dict[Cell, str]:
-    """The signature of each cell: its text, the operations of its formula, or its number."""
-    cells = {}
-    for (row, column), cell in calculation.book.sheets[sheet].items():
-        formula = calculation.formulas.get((sheet, row, column))
-        if formula is None:
-            cells[row, column] = ("'" if isinstance(cell.value, str) else "n") + str(cell.value)
-        else:
-            pieces = (
-                "@" if p.area else "n" if p.kind == "number" else p.text for p in formula.pieces
+def _key(cell: Contents) -> str:
+    if cell.formula is not None:
+        return outline(cell.formula)
+    return f"'{cell.value}" if isinstance(cell.value, str) else f"n{cell.value}"
+
+
+@dataclass(frozen=True)
+class Matched:
+    """The rows and columns of a sheet, each with its place in the other workbook."""
+
+    rows: Mapping[int, int]
+    columns: Mapping[int, int]
+
+    def cells(self, cells: Iterable[Cell]) -> dict[Cell, Cell]:
+        """These cells, each with its place in the other workbook; without those that are gone."""
+        rows, columns = self.rows, self.columns
+        return {(r, c): (rows[r], columns[c]) for r, c in cells if r in rows and c in columns}
+
+
+def matched(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> Matched:
+    """Match the rows and columns of two sheets.
+
+    If as many cells are the same where they were, nothing counts as moved.
+    """
+    rows, columns = ({cell[axis] for cell in old} & {cell[axis] for cell in new} for axis in (0, 1))
+    in_place = Matched({row: row for row in rows}, {column: column for column in columns})
+    if _unchanged(old, new):
+        return in_place
+    a, b = keys(old), keys(new)
+    columns_of = [_lines(contents, 1) for contents in (a, b)]
+    old_columns, new_columns = (
+        {c: tuple(dict.fromkeys(line)) for c, line in lines.items()} for lines in columns_of
+    )
+    by_columns = _align(old_columns, new_columns)
+    renamed = {(r, by_columns[c]): key for (r, c), key in a.items() if c in by_columns}
+    arriving = set(by_columns.values())
+    kept = {(r, c): key for (r, c), key in b.items() if c in arriving}
+    by_rows = _align(_numbered(renamed), _numbered(kept), _stable(renamed, kept))
+    moved = Matched(by_rows, by_columns)
+    return moved if _score(moved, a, b) > _score(in_place, a, b) else in_place
+
+
+def _unchanged(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> bool:
+    """Whether all cells hold the same, apart from the values of formulas."""
+    return old.keys() == new.keys() and all(
+        cell.formula == new[place].formula
+        and (cell.formula is not None or cell.value == new[place].value)
+        for place, cell in old.items()
+    )
+
+
+def _score(way: Matched, old: Mapping[Cell, str], new: Mapping[Cell, str]) -> int:
+    """How many cells hold the same where they are said to be."""
+    return sum(new.get(to) == old[cell] for cell, to in way.cells(old).items())
+
+
+def _lines(contents: Mapping[Cell, str], axis: int) -> dict[int, list[str]]:
+    """The contents of each row (axis 0) or column (axis 1), in order."""
+    lines: dict[int, list[str]] = defaultdict(list)
+    for cell in sorted(contents):
+        lines[cell[axis]].append(contents[cell])
+    return lines
+
+
+def _numbered(contents: Mapping[Cell, str]) -> dict[int, tuple[tuple[int, str], ...]]:
+    """The contents of each row, each with the number of its column."""
+    rows: dict[int, list[tuple[int, str]]] = defaultdict(list)
+    for (row, column), key in sorted(contents.items()):
+        rows[row].append((column, key))
+    return {row: tuple(line) for row, line in rows.items()}
+
+
+def _stable(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> frozenset[int]:
+    """The columns that hold the same on both sides, in whatever order."""
+    a, b = ({c: Counter(line) for c, line in _lines(x, 1).items()} for x in (old, new))
+    return frozenset(
+        column
+        for column in a.keys() & b.keys()
+        if (a[column] & b[column]).total() >= _STABLE * max(a[column].total(), b[column].total())
+    )
+
+
+# ---- lines
+
+
+def _align(
+    old: Mapping[int, Line], new: Mapping[int, Line], stable: frozenset[int] | None = None
+) -> dict[int, int]:
+    """Match lines by their contents: the numbers of old lines to those of new ones.
+
+    `stable` are columns that identify rows even where all rows have changed in other columns.
+    """
+    alignment = _Alignment(old, new)
+    alignment.equal(alignment.a, alignment.b)
+    if stable is not None:
+        alignment.equal(
+            *(
+                [tuple(entry for entry in line if entry[0] in stable) for line in lines]
+                for lines in (alignment.a, alignment.b)
             )
-            cells[row, column] = "=" + "".join(pieces)
-    return cells
+        )
+    alignment.repeated()
+    alignment.similar()
+    alignment.between()
+    return {alignment.old[i]: alignment.new[j] for i, j in sorted(alignment.pairs.items())}
 
 
-def _without_number(signature: str) -> str:
-    """The signature of a cell, the same for all numbers."""
-    return "n" if signature.startswith("n") else signature
+class _Alignment:
+    """Lines of two sheets, and the pairs found so far, by their indices from 0."""
 
+    def __init__(self, old: Mapping[int, Line], new: Mapping[int, Line]) -> None:
+        self.old, self.new = sorted(old), sorted(new)
+        self.a, self.b = [old[line] for line in self.old], [new[line] for line in self.new]
+        self.pairs: dict[int, int] = {}
+        self.taken: set[int] = set()
 
-def pairings(
-    before: Calculation, name: str, after: Calculation, partner: str
-) -> Iterator[dict[Cell, Cell]]:
-    """Yield the ways in which the cells of two sheets may be the same: old cells to new ones.
+    def add(self, i: int, j: int) -> None:
+        self.pairs[i] = j
+        self.taken.add(j)
 
-    They may have moved with their rows and columns, be where they were, have moved along their
-    columns or along their rows, or stand in rows of another order.
-    """
-    old, new = _signatures(before, name), _signatures(after, partner)
-    a, b = ({cell: _without_number(s) for cell, s in cells.items()} for cells in (old, new))
-    columns = _matched(_profiles(a), _profiles(b))
-    rows = _matched(_rows(a, columns.keys()), _rows(b, set(columns.values())))
-    ways = [{(r, c): (rows[r], columns[c]) for r, c in a if r in rows and c in columns}]
-    ways.append({cell: cell for cell in a})
-    for axis in (1, 0):
-        old_lines, new_lines = (_by(cells, itemgetter(axis)) for cells in (a, b))
-        way: dict[Cell, Cell] = {}
-        for line in old_lines.keys() & new_lines.keys():
-            way |= _matched(
-                {c: a[c] for c in old_lines[line]}, {c: b[c] for c in new_lines[line]}, 0
-            )
-        ways.append(way)
-    rows = _reordered_rows(old, new)
-    ways.append({(r, c): (rows[r], c) for r, c in old if r in rows})
-    return (_paired(old, new, way) for i, way in enumerate(ways) if way not in ways[:i])
+    def left(self) -> tuple[list[int], list[int]]:
+        """The lines without a partner."""
+        return (
+            [i for i in range(len(self.a)) if i not in self.pairs],
+            [j for j in range(len(self.b)) if j not in self.taken],
+        )
 
+    def equal(self, a: Sequence[Line], b: Sequence[Line]) -> None:
+        """Match lines with the same contents that no third line has, and equal neighbours."""
+        once = []
+        for lines, left in zip((a, b), self.left(), strict=True):
+            counts = Counter(lines[k] for k in left)
+            once.append({lines[k]: k for k in left if lines[k] and counts[lines[k]] == 1})
+        for line, i in once[0].items():
+            if line in once[1]:
+                self.add(i, once[1][line])
+        for i, j in [(-1, -1), *sorted(self.pairs.items())]:
+            self.extend(a, b, i, j, 1)
+        for i, j in [(len(a), len(b)), *sorted(self.pairs.items(), reverse=True)]:
+            self.extend(a, b, i, j, -1)
 
-def _reordered_rows(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> dict[int, int]:
-    """Where the rows are now, matched by equal contents in whatever order they stand.
+    def extend(self, a: Sequence[Line], b: Sequence[Line], i: int, j: int, step: int) -> None:
+        """Match the neighbours of a pair on one side, as far as they are equal."""
+        i, j = i + step, j + step
+        while 0 <= i < len(a) and 0 <= j < len(b) and a[i] == b[j] != ():
+            if i in self.pairs or j in self.taken:
+                break
+            self.add(i, j)
+            i, j = i + step, j + step
 
-    A row without an equal stays where it is, unless another row has moved there.
-    """
-    by_content = []
-    for cells in (old, new):
-        rows = _by(cells, itemgetter(0))
-        contents = {row: tuple((c, cells[r, c]) for r, c in line) for row, line in rows.items()}
-        by_content.append(_by(contents, contents.__getitem__))
-    before, after = by_content
-    pairs = (zip(before[line], after[line], strict=False) for line in before if line in after)
-    where = dict(chain.from_iterable(pairs))
-    taken = set(where.values())
-    return {row: row for row, _ in old if row not in taken} | where
+    def gaps(self) -> list[tuple[list[int], list[int], bool]]:
+        """The lines without a partner, between those that have one and kept their order.
 
-
-def _by(cells: Iterable[K], key: Callable[[K], T]) -> dict[T, list[K]]:
-    """Cells, or lines, sorted and grouped by a key."""
-    by: dict[T, list[K]] = {}
-    for cell in sorted(cells):
-        by.setdefault(key(cell), []).append(cell)
-    return by
-
-
-def _paired(
-    old: Mapping[Cell, str], new: Mapping[Cell, str], way: Mapping[Cell, Cell]
-) -> dict[Cell, Cell]:
-    """Pair the cells of two sheets, given where each may have gone.
-
-    First come cells that are the same there, then blocks found elsewhere, then cells that changed.
-    """
-    pairs = {cell: to for cell, to in way.items() if new.get(to) == old[cell]}
-    taken = set(pairs.values())
-    left = {cell: signature for cell, signature in old.items() if cell not in pairs}
-    free = {cell: signature for cell, signature in new.items() if cell not in taken}
-    changed = {cell: to for cell, to in way.items() if cell in left and to in free}
-    numbers = {c: to for c, to in changed.items() if left[c][0] == free[to][0] == "n"}
-    pairs |= _elsewhere(left, free, numbers)
-    return pairs | {c: to for c, to in changed.items() if c in left and to in free}
-
-
-def _elsewhere(
-    left: dict[Cell, str], free: dict[Cell, str], numbers: Mapping[Cell, Cell]
-) -> dict[Cell, Cell]:
-    """Pair blocks of the old cells `left` with `free` new ones elsewhere, and remove both.
-
-    A block is taken as moved if at least half of it is found again. `numbers` are those that may
-    only have changed in place: they alone show no move, but go along with texts and formulas.
-    """
-    blocks, reserved = touching(left)[:_MAX_BLOCKS], set(numbers.values())
-    block_of = {cell: k for k, block in enumerate(blocks) for cell in block}
-    gone = _by(block_of.keys() - numbers.keys(), left.__getitem__)
-    new = _by(free, free.__getitem__)
-    votes: Counter[tuple[int, Cell]] = Counter()  # for a block and how far it moved
-    for signature in gone.keys() & new.keys():
-        a, b = gone[signature], new[signature]
-        # Equal cells are paired from the first on and from the last back.
-        for old, to in (*zip(a, b, strict=False), *zip(a[::-1], b[::-1], strict=False)):
-            votes[block_of[old], (to[0] - old[0], to[1] - old[1])] += old != to
-    pairs, tries = dict[Cell, Cell](), Counter[int]()
-    for (k, (down, right)), _ in sorted((+votes).items(), key=lambda entry: (-entry[1], entry[0])):
-        tries[k] += 1
-        if tries[k] > _MAX_TRIES:
-            continue
-        moved = {c: (c[0] + down, c[1] + right) for c in blocks[k]}
-        moved = {c: to for c, to in moved.items() if c in left and to in free}
-        if all(left[c][0] == "n" for c, to in moved.items() if left[c] == free[to]):
-            moved = {c: to for c, to in moved.items() if to not in reserved}
-        same = {c for c, to in moved.items() if left[c] == free[to]}
-        evidence = moved.keys() - numbers.keys()
-        unlike = [left[c][0] for c in evidence - same]
-        if len(unlike) - unlike.count("n") < len(evidence & same) >= len(unlike):
-            for cell in same | evidence:
-                pairs[cell] = moved[cell]
-                del left[cell], free[moved[cell]]
-    return pairs
-
-
-def _rows(cells: Mapping[Cell, str], kept: Container[int]) -> dict[int, tuple[str, ...]]:
-    """The signatures in each row, only those in the columns that are kept."""
-    rows = _by(cells, itemgetter(0)).items()
-    return {i: tuple(cells[cell] for cell in row if cell[1] in kept) for i, row in rows}
-
-
-def _profiles(cells: Mapping[Cell, str]) -> dict[int, tuple[str, ...]]:
-    """The signatures in each column, without repetitions of the one before."""
-    columns = sorted(_by(cells, itemgetter(1)).items())
-    return {i: tuple(s for s, _ in groupby(cells[c] for c in line)) for i, line in columns}
-
-
-def _matched(
-    old: Mapping[T, Hashable], new: Mapping[T, Hashable], most: int = _MAX_LINES
-) -> dict[T, T]:
-    """Match lines, in their order, by their contents: old lines to new ones.
-
-    Changed lines between matched ones are matched if they are as many as before. So is the first
-    line after deleted ones, whose references to these are lost. More than `most` changed lines are
-    not compared with each other.
-    """
-    a, b = list(old), list(new)
-    lines = [old[i] for i in a], [new[i] for i in b]
-    start = _common(*lines)
-    end = min(_common(*(line[::-1] for line in lines)), min(len(a), len(b)) - start)
-    pairs = [(i, i) for i in range(start)] + [(len(a) - i, len(b) - i) for i in range(1, end + 1)]
-    gone, come = (line[start : len(line) - end] for line in lines)
-    edits: Iterable[tuple[str, int, int, int, int]] = [("replace", 0, len(gone), 0, len(come))]
-    if len(gone) + len(come) <= most:
-        edits = SequenceMatcher(None, gone, come).get_opcodes()
-    for tag, i1, i2, j1, j2 in edits:
-        if tag == "equal" or (tag == "replace" and i2 - i1 == j2 - j1):
-            pairs += [(start + i1 + k, start + j1 + k) for k in range(i2 - i1)]
-        elif i1 < i2 and j1 < j2 and str(come[j2 - 1]).replace("#REF!", "@") == str(gone[i2 - 1]):
-            pairs.append((start + i2 - 1, start + j2 - 1))
-    return {a[i]: b[j] for i, j in sorted(pairs)}
-
-
-def _common(a: Sequence[object], b: Sequence[object]) -> int:
-    """How many entries two lists have in common before the first that differs."""
-    return len(list(takewhile(lambda pair: pair[0] == pair[1], zip(a, b, strict=False))))
-
-
-class Shifts:
-    """How far rows (axis 0) and columns (axis 1) of each sheet moved, by their matched cells."""
-
-    def __init__(self, where: Mapping[Position, Position]) -> None:
-        moved: dict[tuple[str, str, int], dict[int, set[int]]] = {}
-        for (sheet, *old), (partner, *new) in where.items():
-            for axis in (0, 1):
-                by_line = moved.setdefault((sheet, partner, axis), {0: {0}})
-                by_line.setdefault(old[axis], set()).add(new[axis] - old[axis])
-        # For two sheets and an axis: each line, and the least and most that its cells moved.
-        self.lines = {
-            key: sorted((line, min(by), max(by)) for line, by in by_line.items())
-            for key, by_line in moved.items()
-        }
-
-    def allow(self, old: Position, new: Position) -> bool:
-        """Whether a blank cell `old` of the first workbook may be `new` in the second.
-
-        A row or column moves as far as its cells do. A blank one moves as far as the nearest lines
-        with cells on its two sides, or by a distance between these. The last line may stay.
+        If most lines are in another order, all are in one gap, which is not in order.
         """
-        axes = zip((LAST_ROW, LAST_COLUMN), old[1:], new[1:], strict=True)
-        for axis, (last, line, to) in enumerate(axes):
-            lines = self.lines.get((old[0], new[0], axis))
-            if lines is None:
-                return False
-            first, end = (bisect_left(lines, (number,)) for number in (line, line + 1))
-            near = lines[first:end] or lines[first - 1 : first + 1]
-            _, least, most = zip(*near, strict=True)
-            if not min(least) <= to - line <= max(most) and not line == to == last:
-                return False
-        return True
+        pairs = sorted(self.pairs.items())
+        kept = in_order(pairs)
+        if 2 * len(kept) < len(pairs):
+            return [(*self.left(), False)]
+        ends = [(-1, -1), *kept, (len(self.a), len(self.b))]
+        gaps = []
+        for (i, j), (i_end, j_end) in pairwise(ends):
+            old = [k for k in range(i + 1, i_end) if k not in self.pairs]
+            new = [k for k in range(j + 1, j_end) if k not in self.taken]
+            if old and new:
+                gaps.append((old, new, True))
+        return gaps
+
+    def repeated(self) -> None:
+        """Match equal lines of which there are several."""
+        work = 0
+        for old, new, is_ordered in self.gaps():
+            work += len(old) * len(new)
+            a, b = [self.a[i] for i in old], [self.b[j] for j in new]
+            if is_ordered and work <= _MAX_COMPARED:
+                for i, j, size in SequenceMatcher(None, a, b, False).get_matching_blocks():
+                    for k in range(size):
+                        self.add(old[i + k], new[j + k])
+                continue
+            places: dict[Line, deque[int]] = defaultdict(deque)
+            for line, j in zip(b, new, strict=True):
+                places[line].append(j)
+            for line, i in zip(a, old, strict=True):
+                if places[line]:
+                    self.add(i, places[line].popleft())
+
+    def similar(self) -> None:
+        """Match lines that share much of what is rare in them, the most similar first."""
+        old_left, new_left = self.left()
+        old, new = _places(self.a, old_left), _places(self.b, new_left)
+        shared: dict[tuple[int, int], float] = defaultdict(float)
+        old_total: dict[int, float] = defaultdict(float)
+        new_total: dict[int, float] = defaultdict(float)
+        for content in {**old, **new}:
+            have, get = old.get(content, ()), new.get(content, ())
+            most = max(len(have), len(get))
+            if most > _RARE or len(shared) > _MAX_SIMILAR:
+                continue
+            weight = _weight(content) / most
+            for i in have:
+                old_total[i] += weight
+            for j in get:
+                new_total[j] += weight
+            for pair in product(have, get):
+                shared[pair] += weight
+        ranked = sorted(shared.items(), key=lambda e: (-e[1], abs(e[0][0] - e[0][1]), e[0]))
+        for (i, j), weight in ranked:
+            enough = weight > _SHARED * min(old_total[i], new_total[j])
+            if enough and i not in self.pairs and j not in self.taken:
+                self.add(i, j)
+
+    def between(self) -> None:
+        """Match lines that stand between the same neighbours, if they are as many as before."""
+        for old, new, is_ordered in self.gaps():
+            if is_ordered and len(old) == len(new):
+                for i, j in zip(old, new, strict=True):
+                    self.add(i, j)
 
 
-def touching(cells: Iterable[Cell]) -> list[list[Cell]]:
-    """Group cells into blocks of cells that touch each other, be it at a corner."""
-    left, blocks = set(cells), list[list[Cell]]()
-    for start in sorted(left):
-        block, edge = list[Cell](), [start]
-        while edge:
-            row, column = cell = edge.pop()
-            if cell in left:
-                left.remove(cell)
-                block.append(cell)
-                edge += [(row + i, column + j) for i in (-1, 0, 1) for j in (-1, 0, 1)]
-        if block:
-            blocks.append(sorted(block))
-    return blocks
+def _places(lines: Sequence[Line], left: Iterable[int]) -> dict[Hashable, list[int]]:
+    """In which of some lines each content stands."""
+    places: dict[Hashable, list[int]] = defaultdict(list)
+    for k in left:
+        for content in dict.fromkeys(lines[k]):
+            places[content].append(k)
+    return places
+
+
+def _weight(content: Hashable) -> int:
+    """How much a content tells about a line."""
+    key = content[1] if isinstance(content, tuple) else content
+    return _TEXT if str(key).startswith("'") else _NUMBER
+
+
+def in_order(pairs: Sequence[tuple[int, int]]) -> list[tuple[int, int]]:
+    """The most of these pairs, sorted by their first numbers, in which the second ones rise, too.
+
+    >>> in_order([(1, 5), (2, 1), (3, 2), (4, 4), (5, 3)])
+    [(2, 1), (3, 2), (5, 3)]
+    """
+    ends: list[int] = []  # the least second number at which a rising list of each length ends
+    at: list[int] = []  # the index of that pair
+    before: list[int | None] = []
+    for index, (_, to) in enumerate(pairs):
+        length = bisect_left(ends, to)
+        before.append(at[length - 1] if length else None)
+        ends[length : length + 1], at[length : length + 1] = [to], [index]
+    rising, last = [], at[-1] if at else None
+    while last is not None:
+        rising.append(pairs[last])
+        last = before[last]
+    return rising[::-1]

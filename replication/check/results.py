@@ -1,29 +1,27 @@
-"""Results beside the tables: each should show the last row of the table that its label names."""
+"""Results beside the tables: which row each one equals, and whether that is the last."""
 
 import math
 import re
-from collections import defaultdict
-from collections.abc import Iterable, Mapping, Sequence
-from statistics import median
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
 
-from reference.units import to_si
-from replication.check.examination import Examination, near
-from replication.check.inputs import report_inputs
-from replication.check.judge import stops_elsewhere
-from replication.check.table import NEAR_END, Result, address
-from replication.check.words import (
-    input_roles,
-    number_in,
-    power_of_ten,
-    quantity,
-    result_of,
-    times_too,
-    title,
-    unit_power,
-    unit_text,
-)
-from spreadsheets.foreign import Position, Value
+from reference.ledger import Claim, load
+from reference.units import same_dimension, to_si
+from replication.check.ends import OTHER_STOP
+from replication.check.examination import NO_FAULT, Difference, Examination, near
+from replication.check.labels import label_of
+from replication.check.table import LEAST, address
+from replication.check.taken import case_of, report_inputs
+from replication.check.words import number_in, result_of, times_too, unit_text
+from replication.text import with_unit
+from spreadsheets.evaluate import Area, Evaluator, written
+from spreadsheets.foreign import Position
 
+_NEAR_END = 3
+"""A result that shows one of so many rows before the last was meant to show the last."""
+_LIST = 4
+"""So far left of a result the number of its row may stand."""
 _ANOTHER_ROW = re.compile(
     r"\d *(?:[nµu]?s|sec\w*)\b|"
     r"\b(?:steps?|schritte?|rows?|zeile|first|half|lost|previous|before|prior|penultimate)\b",
@@ -31,228 +29,312 @@ _ANOTHER_ROW = re.compile(
 )
 """Words in a label by which a depth may belong to another row than the last."""
 _PERCENT = re.compile(r"%|percent|prozent", re.IGNORECASE)
-_RADIUS = re.compile(r"/ *r\b|radi", re.IGNORECASE)
 _DIAMETER = re.compile(r"diam|durchm|/ *\(?(?:2|d\b)|twice", re.IGNORECASE)
 
-_NEARBY = 10
-"""How far from a result a number may stand that says which table the result belongs to."""
+
+@dataclass(frozen=True)
+class Result:
+    """A cell that equals the depth of a row, or that over the radius, up to a power of ten."""
+
+    place: Position
+    exam: Examination
+    k: int
+    ratio: bool
+    power: int
+    over_diameter: bool = False
 
 
-def misread(tables: Sequence[Examination]) -> None:
-    """Report results that do not show the last row of their table.
-
-    A table whose stop is accused is left alone. So are a result that reads two tables, which may be
-    their difference, and a list without a table named for each of its cells, which may show rows.
-    """
-    for exam in tables:
-        _judge_columns(exam)
-    calculation, wrong = tables[0].calculation, set[Position]()
-    results = {result.place: result for exam in tables for result in exam.table.labelled}
-    named = _named_inputs(tables, results.values()) if len(tables) > 1 else {}
-    for place in sorted(results, key=lambda place: calculation.order.get(place, -1)):
-        if place not in wrong and _accuse(tables, results[place], named.get(place, {})):
-            wrong |= calculation.needing({place})
-
-
-def _judge_columns(exam: Examination) -> None:
-    """Report columns beside the table that show x or x/R in another unit than their heads say.
-
-    Columns of rounded numbers are left alone.
-    """
-    for line in exam.table.helpers:
-        head = line.head or ""
-        ratio = result_of(head) == "ratio"
-        stated = _stated_power(head, line.unit, ratio)
-        shows_depth = "depth" in line.roles and stated is not None
-        if any(map(str.isdigit, head)) or not (ratio or shows_depth):
-            continue  # such as "x * 10^6"
-        rows = range(1, exam.table.steps + 1)
-        shown = {k: number for k in rows if (number := line.at(exam.table.zero + k))}
-        depths = {k: x for k in shown if (x := exam.rows("depth", k))}
-        factors = [shown[k] / x * (exam.case.radius if ratio else 1.0) for k, x in depths.items()]
-        factor = median(factors) if factors else 0.0
-        cells = [line.place(exam.table.zero + k) for k in depths]
-        read = set[Position]().union(*map(exam.calculation.corners, cells))
-        is_rounded = sum(near(value, factor) for value in factors) <= 0.5 * len(factors)
-        if is_rounded or read & exam.accused:
+def results(exams: Sequence[Examination], evaluator: Evaluator) -> Iterator[Result]:
+    """The formulas beside the tables that read depths, each with the row that it equals."""
+    lined: set[Position] = set()
+    for exam in exams:
+        lined |= set(exam.table.places)
+        for line in exam.table.helpers:
+            lined |= {line.place(i) for i in line.values}
+    depths = [(exam, _depth_cells(exam)) for exam in exams]
+    known: dict[Position, Result] = {}
+    for place in sorted(evaluator.formulas, key=lambda p: evaluator.order.get(p, 0)):
+        value = evaluator.values.get(place)
+        if place in lined or type(value) is not float or not 0 < abs(value) < math.inf:
             continue
-        power = power_of_ten(factor)
-        if _says_radius(head) and near(factor, 0.5):
-            text = "the column is the depth over the diameter, not over the radius"
-            exam.add("odd formula", cells, None, text)
-        elif power is not None and (slip := power + (stated or 0)):
-            text = f"the column is {times_too(slip)} for its head: a unit is not converted"
-            exam.add("unit", cells, None, text)
+        areas = evaluator.areas(place)
+        for exam, cells in depths:
+            rows = _rows_read(areas, exam, cells, known)
+            result = _equals(place, value, exam, rows) if rows else None
+            if result is not None:
+                known[place] = result
+                yield result
+                break
 
 
-def _stated_power(text: str, unit: str | None, is_ratio: bool) -> int | None:
-    """Return the power of ten of the unit that a label or head states; -2 for percent."""
-    return -2 if is_ratio and _PERCENT.search(text) else unit_power(unit)
+def _depth_cells(exam: Examination) -> list[dict[Position, int]]:
+    """The rows of the cells of the depths, and of each line beside that has them in another unit.
 
-
-def _says_radius(text: str) -> bool:
-    """Whether a label or head names x over the radius, not over the diameter."""
-    return bool(_RADIUS.search(text)) and not _DIAMETER.search(text)
-
-
-def _accuse(tables: Sequence[Examination], result: Result, named: Mapping[str, float]) -> bool:
-    """Report a result that is wrong, and return whether it is.
-
-    `named` are the inputs by which its label names its table.
+    That may be the radius: X/R.
     """
-    read = [exam for exam in tables if exam.table.gives_depth(result.place)]
-    read = read or [exam for exam in tables if result.place in exam.table.readers]
-    if len(read) != 1 or (result.where == "listed" and not named):
-        return False
-    if result.where == "beyond" and len(tables) == 1:
-        return False  # it may be something else on purpose
-    (exam,) = read
-    if stops_elsewhere(exam) or result.place in exam.calculation.unknown:
-        return False
-    meant = [table for table in tables if all(has_input(table, *pair) for pair in named.items())]
-    in_row = [other.place for other in exam.table.labelled if other.label == result.label]
-    if result.where == "beyond" and sum(map(exam.table.gives_depth, in_row)) == 1:
-        result = result._replace(where="first")  # it is the only one of its table in this row
-    unlike = next((role for role in named if not has_input(exam, role, named[role])), None)
-    fault = _fault(exam, result, unlike, meant[0] if len(meant) == 1 else exam)
-    if fault:
-        kind, expected, text, found = fault
-        exam.add(kind, [result.place], expected, text, found)
-    return fault is not None
+    table = exam.table
+    depths = {p: k for p, (role, k) in table.places.items() if role == "depth"}
+    lines = [depths]
+    rows = {index: k for k, index in table.rows.items()}
+    for line in table.helpers:
+        numbers = {rows[i]: value for i, value in line.values.items() if i in rows}
+        pairs = [(value, table.number("depth", k)) for k, value in numbers.items()]
+        ratios = [value / x for value, x in pairs if x]
+        if len(ratios) >= LEAST and ratios[0] and all(near(r, ratios[0]) for r in ratios):
+            lines.append({line.place(table.rows[k]): k for k in numbers})
+    return lines
 
 
-def _fault(
-    exam: Examination, result: Result, unlike: str | None, meant: Examination
-) -> tuple[str, Value | None, str, Value | None] | None:
-    """Return what is wrong with a result: kind, expected value, explanation and found value.
+def _rows_read(
+    areas: Sequence[Area], exam: Examination, lines: Sequence[Mapping[Position, int]],
+    known: Mapping[Position, Result],
+) -> list[int]:  # fmt: skip
+    """The rows whose depths a formula may show, by what it reads: the likely ones first.
 
-    The result reads the table of `exam`, its label means that of `meant`; `unlike` is an input in
-    which the label contradicts the table that is read. None if nothing is wrong.
+    It reads one depth, or a range of them, or another result.
     """
-    kind, place, unit, label, where = result
-    what = "the final depth" if kind == "depth" else "the depth over the radius"
-    depths, last = exam.rows.columns["depth"], exam.table.steps
-    value, formula = exam.calculation.number(place) or 0.0, exam.calculation.book[place].formula
-    label_text = str(exam.calculation.values[label])
-    is_ratio = kind == "ratio" and where != "beyond"
-    # The row that it shows, and the power of ten by which; None if it is rounded or not a depth.
-    powers = ((k, exam.power_shown(kind, value, k)) for k in sorted(depths, reverse=True))
-    rows = ((k, power) for k, power in powers if power is not None)
-    row, power = next(rows, (None, 0)) if exam.table.gives_depth(place) else (None, 0)
-    last_cell = meant.table.place("depth", meant.table.steps)
-    expected = address(last_cell, last_cell[0] != place[0])
-    if row is None:
-        says_radius = is_ratio and _says_radius(label_text)
-        if says_radius and value and near(value * 2 * exam.case.radius, exam.final_depth or 0.0):
-            text = "the number is the depth over the diameter, not over the radius"
-            return "odd formula", 2 * value, text, None
-        says_last = says_radius or (kind == "depth" and result_of(label_text) == "depth")
-        if says_last and where == "first" and formula and not _is_about(exam, kind, value, unit):
-            text = f"{what} is not that of the last row of the table"
-            return "odd formula", expected, text, formula
-        return None
-    is_near = row >= last - NEAR_END or "MAX(" in (formula or "").upper()
-    is_near = is_near or result_of(label_text) not in ("any depth", None)
-    if row != last and (_ANOTHER_ROW.search(label_text) or not is_near):
-        return None
-    if depths[row] == max(depths.values()) and "last" in exam.table.readers[place]:
-        row = last  # another row has the largest depth only because the table has gone wrong
-    if unlike and meant is not exam:
-        taken, named = (quantity(_number(table, unlike), unlike) for table in (exam, meant))
-        text = f"{what} reads the table where {title(unlike)} is {taken}; its label says {named}"
-        return "odd formula", expected, text, formula
-    if row != last:
-        text = f"{what} reads row {row} of the table, not {last}, its last"
-        return "odd formula", expected, text, formula
-    stated = _stated_power(label_text, unit, is_ratio)
-    if kind == "ratio" and (slip := power + (stated or 0)):
-        return "unit", None, f"{what} is {times_too(slip)}: a unit is not converted", None
-    if kind == "depth" and stated not in (None, -power):
-        in_unit = unit_text("depth", -power)
-        text = f"the label gives {what} in {unit}, but the number is in {in_unit}"
-        return "unit", in_unit, text, unit
+    single = {
+        cells[a.corner] for a in areas if a.cells == 1 for cells in lines if a.corner in cells
+    }
+    if single:
+        return list(single) if len(single) == 1 else []
+    through = [known[a.corner] for a in areas if a.cells == 1 and a.corner in known]
+    own = [result.k for result in through if result.exam is exam]
+    if own:
+        return own
+    wide = [a for a in areas if a.cells > 1]
+    ranges = {k for a in wide for cells in lines for place, k in cells.items() if a.covers(place)}
+    return sorted(ranges, reverse=True)
+
+
+def _equals(place: Position, value: float, exam: Examination, rows: Sequence[int]) -> Result | None:
+    for k in rows:
+        x = exam.table.number("depth", k)
+        if not x:
+            continue
+        X = exam.units.get("depth", 0.0)
+        radius = exam.inputs.get("radius")
+        for ratio, over, times in (
+            (False, False, 1.0), (True, False, radius.si if radius else math.nan),
+            (True, True, 2 * radius.si if radius else math.nan),
+        ):  # fmt: skip
+            wanted = x if not ratio else x * 10.0**X / times
+            quotient = value / wanted if wanted == wanted and wanted else math.nan
+            if quotient > 0:
+                power = math.log10(quotient)
+                if abs(power - round(power)) < 1e-9 and abs(power) < 13:
+                    return Result(place, exam, k, ratio, round(power), over)
     return None
 
 
-def _is_about(exam: Examination, kind: str, value: float, unit: str | None) -> bool:
-    """Whether a value is the last depth, or its ratio to the radius, within 1 % in any unit.
+def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
+    """Report results that show another row than the last, or another unit than their label."""
+    found = list(results(exams, evaluator))
+    wrong: set[Position] = set()
+    for result in found:
+        exam = result.exam
+        if any(d.explanation.startswith(OTHER_STOP) for d in exam.differences):
+            continue
+        read = {(a.sheet, a.top, a.left) for a in evaluator.areas(result.place) if a.cells == 1}
+        accused = {d.place for d in exam.differences if d.kind not in NO_FAULT}
+        if read & (wrong | accused):
+            wrong.add(result.place)
+            continue
+        if any(r.place in read and r.over_diameter for r in found):
+            continue  # it shows another result, which is judged
+        label, unit, sure = label_of(result.place, evaluator)
+        fault = _fault(result, found, label, unit, sure)
+        if fault is not None:
+            kind, expected, text = fault
+            if result.k != exam.last and (source := _shown_by(result, found, evaluator)):
+                wrong.add(result.place)
+                result = source
+                text = _taken_from(source)
+            formula = evaluator.formulas[result.place]
+            shown = written(formula.key, result.place[1], result.place[2])
+            exam.add(kind, [result.place], expected, text, shown if kind == "odd formula" else unit)
+            wrong.add(result.place)
 
-    Such a value may be rounded, or interpolated between two rows.
+
+Fault = tuple[str, str | None, str]
+"""What is wrong with a result: its kind, what is expected, and a sentence."""
+
+
+def _fault(
+    result: Result, found: Sequence[Result], label: str, unit: str | None, sure: bool
+) -> Fault | None:
+    """What is wrong with a result; None if nothing."""
+    table = result.exam.table
+    named = result_of(label) if label else None
+    last = result.exam.last
+    x, final = table.number("depth", result.k), table.number("depth", last)
+    if result.k != last and x != final:
+        return _other_row(result, found, label, named)
+    if result.over_diameter:
+        wrong = result.power == 0 and named == "ratio" and not _DIAMETER.search(label)
+        text = "the number is the depth over the diameter, not over the radius"
+        return ("odd formula", None, text) if wrong else None
+    if result.ratio:
+        wanted = 2 if _PERCENT.search(label) or unit in ("%", "percent") else 0
+        text = f"{_what(result)} is {times_too(result.power - wanted)}: a unit is not converted"
+        return ("unit", None, text) if named == "ratio" and result.power != wanted else None
+    if named == "ratio" and not unit and _tells_ratio(result.exam):
+        return (
+            "odd formula",
+            None,
+            "the label says the depth over the radius, but the number is the depth",
+        )
+    return _other_unit(result, unit) if unit and sure else None
+
+
+def _what(result: Result) -> str:
+    return "the depth over the radius" if result.ratio else "the final depth"
+
+
+def _other_row(
+    result: Result, found: Sequence[Result], label: str, named: str | None
+) -> Fault | None:
+    """The fault of a result that shows another row than the last; None if it may well do so."""
+    exam, last = result.exam, result.exam.last
+    same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
+    if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label) or _says_row(result):
+        return None
+    close = last - _NEAR_END <= result.k < last or named in ("depth", "ratio")
+    shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
+    if not close or _ANOTHER_ROW.search(label) or (shows_last and named is None):
+        return None
+    cell = exam.table.place("depth", last)
+    return "odd formula", address(cell, cell[0] != result.place[0]), _taken_from(result)
+
+
+def _taken_from(result: Result) -> str:
+    """Say from which row a result is taken."""
+    taken = f"{_what(result)} is taken from step {result.k} of the table"
+    return f"{taken}; its last step is {result.exam.last}"
+
+
+def _shown_by(result: Result, found: Sequence[Result], evaluator: Evaluator) -> Result | None:
+    """The result that another one takes its depth from; None if that reads the table itself."""
+    read = {a.corner for a in evaluator.areas(result.place) if a.cells == 1}
+    return next((r for r in found if r.place in read and r.k == result.k), None)
+
+
+def _says_row(result: Result) -> bool:
+    """Whether a number at the left of a result is that of its row, as in a list of some rows."""
+    sheet, row, column = result.place
+    values = result.exam.table.evaluator.values
+    beside = (values.get((sheet, row, column - d)) for d in range(1, _LIST + 1))
+    return any(type(value) is float and value == result.k for value in beside)
+
+
+def _other_unit(result: Result, unit: str) -> Fault | None:
+    """The fault of a depth in another unit than its label states; None if it is in that one."""
+    if not result.exam.firm or not same_dimension(unit, "m") or unit == "1":
+        return None
+    stated = math.log10(float(to_si(unit)))
+    power = result.exam.units.get("depth", 0.0) - result.power
+    if abs(stated - power) <= 1e-9 or abs(stated - round(stated)) >= 1e-9:
+        return None
+    shown = unit_text("depth", round(power))
+    text = f"the label gives {_what(result)} in {unit}, but the number is in {shown}"
+    return "unit", shown, text
+
+
+def _tells_ratio(exam: Examination) -> bool:
+    """Whether X/R is more than X in another unit: the radius is no power of ten."""
+    radius = exam.inputs.get("radius")
+    if radius is None or not 0 < radius.si < math.inf:
+        return False
+    power = math.log10(radius.si)
+    return abs(power - round(power)) > 1e-6
+
+
+# ---- the report's printed final depth and X/R
+
+
+@dataclass(frozen=True)
+class PrintedCell:
+    """A cell with a final depth or X/R of the report; `found` is its value in the claim's unit."""
+
+    claim: Claim
+    place: Position
+    found: float
+    met: bool
+    typed: bool
+
+    def unmet(self, exam: Examination) -> Difference:
+        """Return the difference for a number that is not as printed."""
+        claim, rank = self.claim, (3.0, *exam.rank(self.place))
+        printed, interval = (
+            with_unit(str(text), claim.unit) for text in (claim.shown, claim.interval())
+        )
+        text = f"the report prints {printed} for {claim.title} ({claim.place}), "
+        text += f"which stands for values in {interval}"
+        value = exam.table.evaluator.values.get(self.place)
+        return Difference("printed number", (self.place,), printed, value, text, rank)
+
+
+def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterator[PrintedCell]:
+    """The final depths and X/R of the report's cases that the workbook holds.
+
+    A typed number belongs to the only table, or to that whose beta its label names.
     """
-    wanted = (exam.final_depth or 0.0) / (exam.case.radius if kind == "ratio" else 1.0)
-    ratio = value * float(to_si(unit or "1")) / wanted if wanted else 0.0
-    return ratio > 0 and abs(ratio / 10.0 ** round(math.log10(ratio)) - 1) < 0.01
+    for exam in exams:
+        case = case_of(exam.intended, max(1e-9, 10 * exam.fitted.slack))
+        if case is None:
+            continue
+        assert exam.intended is not None
+        whole = math.isclose(exam.intended.c, report_inputs()["step"][0], rel_tol=1e-6)
+        if exam.ends and whole and (depth := exam.final_depth) is not None:
+            place = exam.table.place("depth", exam.last)
+            yield _judged(f"depth-{case}", place, Fraction(depth), False)
+        for place, label, unit in _labelled(evaluator):
+            beta, number = number_in(label)
+            if len(exams) > 1 and beta != "beta":
+                continue
+            if beta != "beta" or near(number, float(case[-1])):
+                yield from _typed_result(exam, case, place, label, unit)
 
 
-def _named_inputs(
-    tables: Sequence[Examination], results: Iterable[Result]
-) -> dict[Position, dict[str, float]]:
-    """Return, for each result's cell, the inputs by which the table that it belongs to is named.
-
-    They stand in the label ("X/R, beta = 3"), or a list or row of results has a column or row with
-    an input's number for each of them.
-    """
-    values, named = tables[0].calculation.values, defaultdict[Position, dict[str, float]](dict)
-    groups = defaultdict[Position, list[Result]](list)
-    for result in results:
-        groups[result.label].append(result)
-    for label, group in groups.items():
-        named |= _named_beside(tables, group)
-        role, number = number_in(str(values[label]))
-        # A velocity or a step that no table has belongs to a row, or is a time.
-        if role == "beta" or (role and any(near(_number(exam, role), number) for exam in tables)):
-            for result in group:
-                if result.where == "first" or result.place in named:
-                    named[result.place][role] = number
-    return named
+def _typed_result(
+    exam: Examination, case: str, place: Position, label: str, unit: str | None
+) -> Iterator[PrintedCell]:
+    """A typed number as a final depth or X/R of a case, if it may be one."""
+    kind, number = result_of(label), exam.table.evaluator.values[place]
+    if type(number) is not float or not number:
+        return
+    value = Fraction(number)
+    if kind == "ratio":
+        yield _judged(f"ratio-{case}", place, value, True)
+    elif kind == "depth" and unit and same_dimension(unit, "m"):
+        yield _judged(f"depth-{case}", place, value * to_si(unit), True)
+    elif kind == "depth" and exam.final_depth and value > 0:
+        power = 3 * round(math.log10(exam.final_depth / number) / 3)
+        yield _judged(f"depth-{case}", place, value * Fraction(10) ** power, True)
 
 
-def _named_beside(
-    tables: Sequence[Examination], group: Sequence[Result]
-) -> dict[Position, dict[str, float]]:
-    """Return the inputs that numbers beside each result of a list name, if all results differ."""
-    values, named = tables[0].calculation.values, dict[Position, dict[str, float]]()
-    beside = {result.place: _numbers_beside(values, result) for result in group}
-    for role in sorted({role for numbers in beside.values() for role in numbers}):
-        numbers = {place: inputs[role] for place, inputs in beside.items() if role in inputs}
-        if all(any(has_input(exam, role, x) for exam in tables) for x in numbers.values()):
-            for place, number in numbers.items():
-                named.setdefault(place, {})[role] = number
-    distinct = {tuple(numbers.items()) for numbers in named.values()}
-    return named if len(distinct) == len(named) >= 2 else {}
+def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]]:
+    """Typed numbers beside a label of a final depth or X/R, with the label and its unit."""
+    for (sheet, row, column), text in list(evaluator.values.items()):
+        if not isinstance(text, str) or (sheet, row, column) in evaluator.formulas:
+            continue
+        if result_of(text) not in ("depth", "ratio"):
+            continue
+        for down, right in ((0, 1), (1, 0)):
+            place = (sheet, row + down, column + right)
+            after = evaluator.values.get((sheet, row + 2 * down, column + 2 * right))
+            value = evaluator.values.get(place)
+            if type(value) is float and type(after) is float:
+                break  # a list of numbers is no result
+            if type(value) is float and place not in evaluator.formulas:
+                label, unit, _ = label_of(place, evaluator)
+                if label == text:
+                    yield place, text, unit
+                break
 
 
-def _numbers_beside(values: Mapping[Position, Value], result: Result) -> dict[str, float]:
-    """Return the numbers under heads of inputs in the row of a result; for a row, in its column."""
-    (sheet, row, column), (_, label_row, label_column) = result.place, result.label
-    numbers = defaultdict[str, set[float]](set)
-    for side in (-1, 1):
-        for k in range(side, side * _NEARBY, side):
-            head, cell = (sheet, row + k, label_column), (sheet, row + k, column)
-            if label_row < row:
-                head, cell = (sheet, label_row, column + k), (sheet, row, column + k)
-            name, value = values.get(head), values.get(cell)
-            if name is None and value is None:
-                break  # what stands beyond a blank does not belong to the list
-            roles = input_roles(name, None) if isinstance(name, str) else frozenset[str]()
-            if isinstance(value, str):
-                role, value = number_in(value)
-                roles = frozenset({role}) if role else roles
-            if len(roles) == 1 and isinstance(value, float) and math.isfinite(value):
-                numbers[next(iter(roles))].add(value)
-    return {role: values.pop() for role, values in numbers.items() if len(values) == 1}
-
-
-def has_input(exam: Examination, role: str, number: float) -> bool:
-    """Whether a number is the value of a table's input, in any unit."""
-    value = _number(exam, role)
-    return value > 0 and power_of_ten(number / value) is not None
-
-
-def _number(exam: Examination, role: str) -> float:
-    """Return an input of the intended case, beta as resistance over flow stress; 0 if unknown."""
-    if role == "beta":
-        stress = exam.inputs.get("flow_stress")
-        flow_stress = stress.si if stress else report_inputs()["flow_stress"][0]
-        return exam.intended.resistance / flow_stress
-    return float(getattr(exam.intended, role, 0.0))
+def _judged(name: str, place: Position, value: Fraction, typed: bool) -> PrintedCell:
+    """Compare a value in SI units with the claim of this name."""
+    claim = load().claims[name]
+    shown = value / claim.si
+    return PrintedCell(claim, place, float(shown), claim.target().contains(value), typed)

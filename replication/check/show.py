@@ -1,6 +1,5 @@
-"""The results of `check` and `diff`: one JSON document, and the text, page and JUnit file of it."""
+"""The result of `check`: one JSON document, and the text, page and JUnit file of it."""
 
-import re
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
@@ -8,19 +7,16 @@ from textwrap import fill
 from typing import Any
 from xml.etree import ElementTree as ET
 
-from openpyxl.utils.cell import get_column_letter
-
 from reference.units import written
 from replication import page
-from replication.check.diff import FOLLOWS, LAST, Comparison
-from replication.check.examination import KINDS, NO_FAULT, Difference, Examination
+from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.table import address
-from replication.check.words import INPUTS, count, share, unit_text
+from replication.check.words import COLUMNS, INPUTS, count, is_unit, unit_text
 from replication.check.workbook import Check
 from replication.reading import printable
 from replication.text import aligned, quantity, with_unit
+from spreadsheets.evaluate import Evaluator, column_letters
 from spreadsheets.foreign import Position
-from spreadsheets.recalculation import Calculation
 
 _MOST = 12
 """How many entries of a list the text shows: with more of one kind, the first matter most."""
@@ -36,8 +32,14 @@ Record = Mapping[str, Any]
 
 def check_record(check: Check) -> dict[str, Any]:
     """The document of `coldspray check --json`; a number beyond doubles is null."""
-    exams = check.examinations
-    return _record([check.calculation], _verdict(check), check.differences, check.first) | {
+    exams, first = check.examinations, check.first
+    return {
+        "file": str(check.evaluator.book.path),
+        "verdict": _verdict(check),
+        "clean": first is None,
+        "summary": dict(Counter(d.kind for d in check.differences)),
+        "first": first and _finite(first.record()),
+        "differences": [_finite(d.record()) for d in check.differences],
         "taken": [_taken(exam) for exam in exams],
         "final_depths": [_finite(_depth(exam)) for exam in exams],
         "claims": [
@@ -49,56 +51,8 @@ def check_record(check: Check) -> dict[str, Any]:
             }
             for number in check.numbers
         ],
+        "notes": [*check.evaluator.book.notes, *check.others],
     }  # fmt: skip
-
-
-def diff_record(comparison: Comparison) -> dict[str, Any]:
-    """The document of `coldspray diff --json`; `expected` is what the first workbook holds."""
-    differences, calculations = comparison.differences, (comparison.before, comparison.after)
-    cells = {cell for d in differences if d.kind in ("formula", "value") for cell in d.cells}
-    last = {cell for d in differences if d.explanation.startswith(LAST) for cell in d.cells}
-    verdict = count(len(differences), "difference")
-    if follow := sum(d.explanation.startswith(FOLLOWS) for d in differences):
-        others = "others" if follow < len(differences) else "what is within the tolerance"
-        verdict += f", {follow:,} of which follow{'s' * (follow == 1)} from {others}"
-    verdict += f", in the contents of {count(len(cells), 'cell')}" if cells else ""
-    if last:
-        where = "" if last == cells else f" in {len(last):,} of them"
-        verdict += f"; only the last digits differ{where}: --relative 1e-14 takes these as equal"
-    equal = "Equal: every cell holds the same"
-    if any(c.unknown for c in calculations):
-        equal += ", but for formulas that are not computed"
-    verdict = f"{verdict if differences else equal}."
-    record = _record(calculations, verdict, differences, next(iter(differences), None))
-    for c in calculations:
-        computed = {place for place in c.formulas if c.book[place].value is None} - c.unknown
-        for cells, what in ((computed, "are computed here"), (c.unknown, "are not compared")):
-            if cells:
-                some = share(cells, c.formulas, "formula")
-                note = f"{c.book.path}: for {some} no value is stored: they {what}"
-                record["notes"].append(note)
-    return record
-
-
-def _record(
-    calculations: Sequence[Calculation],
-    verdict: str,
-    differences: Sequence[Difference],
-    first: Difference | None,
-) -> dict[str, Any]:
-    """The keys that both documents have."""
-    return {
-        "file": " and ".join(str(c.book.path) for c in calculations),
-        "verdict": verdict,
-        "clean": first is None,
-        "summary": dict(Counter(d.kind for d in differences)),
-        "first": first and _finite(first.record()),
-        "differences": [_finite(d.record()) for d in differences],
-        "taken": [],
-        "final_depths": [],
-        "claims": [],
-        "notes": [note for c in calculations for note in c.book.notes],
-    }
 
 
 def _finite(record: Record) -> Record:
@@ -115,12 +69,17 @@ def _verdict(check: Check) -> str:
         inputs = f", with {count(others, 'other input')}" if others else ""
         extent = "" if any(exam.ends for exam in exams) else " as far as it goes"
         places = {place for exam in exams for place in exam.table.places}
-        numbers = "" if places & check.calculation.formulas.keys() else ", in numbers, no formulas"
+        formulas = check.evaluator.formulas
+        numbers = "" if places & formulas.keys() else ", in numbers, no formulas"
+        lines = {
+            line.place(i) for exam in exams for line in exam.table.helpers for i in line.values
+        }
+        left = (places | lines) & check.evaluator.reasons.keys()
+        if left:
+            numbers += f"; {len(left):,} of its formulas not computed"
         return f"Clean{extent}: the report's sheet{inputs}, cell by cell{numbers}."
     if not causes:
         return f"The sheet is right, with {count(len(faults), 'number')} beside it not as printed."
-    if all(d.kind == "operation order" for d in causes):
-        return "The report's sheet but for last digits: it calculates in another order."
     sentence = f"{count(len(causes), 'difference')} from the report's sheet"
     if unmet := len(faults) - len(causes):
         sentence += f", {count(unmet, 'printed number')} not met"
@@ -144,21 +103,10 @@ def _wrong_depth(exam: Examination) -> tuple[float, float] | None:
 
 
 def _depth(exam: Examination) -> Record:
-    """The final depth, what it should be, and the one difference that alone explains it, if any.
-
-    A difference explains the depth if it alone gives it to within 5 % of the error. An excerpt has
-    no final depth.
-    """
-    explains = None
-    if (depths := _wrong_depth(exam)) is not None:
-        reached, right = depths
-        effects = [(abs(d.effect - reached), d) for d in exam.differences if d.effect is not None]
-        off, nearest = min(effects, key=lambda entry: entry[0], default=(0.0, None))
-        if nearest and off < 0.05 * abs(reached - right):
-            explains = address(nearest.place, True)
+    """The final depth, and what it should be. An excerpt has no final depth."""
     return {"sheet": exam.table.sheet, "cells": exam.table.area("depth"),
-            "found": exam.final_depth if exam.ends else None, "expected": exam.right_depth,
-            "explained_by": explains, "differing": exam.differing}  # fmt: skip
+            "found": exam.final_depth if exam.ends else None,
+            "expected": exam.right_depth}  # fmt: skip
 
 
 def _of_table(sheet: str, cells: str, tables: int) -> str:
@@ -168,17 +116,17 @@ def _of_table(sheet: str, cells: str, tables: int) -> str:
 
 def _taken(exam: Examination) -> Record:
     """What was taken for what in a table: its scheme, its columns and its inputs."""
-    table, rules = exam.table, dict.fromkeys(rule.name for rule in exam.rows.others.values())
+    table = exam.table
     return {
         "sheet": table.sheet,
         "direction": "to the right" if table.across else "down",
         "steps": table.steps,
-        "scheme": " and ".join(rules) or "the report's",
+        "scheme": exam.scheme,
         "columns": {
             role: {"cells": table.area(role), "head": line.head,
-                   "unit": unit_text(role, exam.powers[role]),
+                   "unit": _unit(role, exam.units.get(role, 0.0)),
                    "by": "--map" if line.given else "head" if role in line.roles else "values"}
-            for role, line in table.lines.items()
+            for role in COLUMNS if (line := table.lines.get(role)) is not None
         },
         "inputs": {
             role: {"value": entry.si, "unit": INPUTS[role],
@@ -188,6 +136,13 @@ def _taken(exam: Examination) -> Record:
             if (entry := exam.inputs.get(role)) is not None
         },
     }  # fmt: skip
+
+
+def _unit(role: str, power: float) -> str:
+    """The unit of a column by its decimal logarithm."""
+    if abs(power - round(power)) < 1e-9:
+        return unit_text(role, round(power))
+    return f"{10.0**power:.6g} {COLUMNS[role]}"
 
 
 # ---- for a person at a terminal
@@ -204,36 +159,28 @@ def safe(text: object, limit: int = 90) -> str:
     return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
 
 
-_PLAIN = re.compile("#|'|TRUE$|FALSE$")
-"""The start of an error, a truth value, or a text that has quotes already: these need none."""
-
-
 def contents(difference: Record) -> str:
-    """Say what a cell holds and should hold; for `diff`, what it held and what it holds now.
+    """Say what a cell holds and should hold.
 
-    >>> contents({"kind": "value", "expected": 500.0, "found": None})
-    'was 500.0, is blank'
-    >>> contents({"kind": "value", "expected": 11.0, "found": "11"})
-    "was 11.0, is '11'"
     >>> contents({"kind": "printed number", "expected": "7.67 um", "found": 7.68e-06})
     'holds 7.68e-06, the report prints 7.67 um'
+    >>> contents({"kind": "unit", "expected": "m", "found": "mm"})
+    'stated in mm, is in m'
+    >>> contents({"kind": "odd formula", "expected": 500.0, "found": None})
+    'is blank, should hold 500.0'
     """
     values = difference["expected"], difference["found"]
     expected, found = ("blank" if value is None else safe(value, 120) for value in values)
-    if {type(value) for value in values} == {float, str} and difference["kind"] == "value":
-        expected, found = (
-            f"'{shown}'" if isinstance(value, str) and not _PLAIN.match(value) else shown
-            for value, shown in zip(values, (expected, found), strict=True)
-        )
-    if difference["kind"] not in KINDS:
-        if difference["kind"] in ("added", "removed"):
-            return found if values[0] is None else expected
-        return f"was {expected}, is {found}"
     if difference["kind"] == "printed number":  # in the report's unit, not the cell's
         return f"holds {found}, the report prints {expected}"
-    if values[0] is not None and expected != found:
-        return f"holds {found}, should hold {expected}"
-    return "" if values[1] is None else f"holds {found}"
+    if difference["kind"] == "unit" and isinstance(values[0], str):
+        return f"stated in {found}, is in {expected}" if is_unit(found) else f"is in {expected}"
+    if values[0] is None or expected == found:
+        return "" if values[1] is None else f"holds {found}"
+    if values[1] is None:
+        return f"is blank, should hold {expected}"
+    reads = found.startswith("=") and isinstance(values[0], str) and expected[:1] != "="
+    return f"holds {found}, should {'read' if reads else 'hold'} {expected}"
 
 
 def text(record: Record) -> str:
@@ -242,24 +189,10 @@ def text(record: Record) -> str:
 
 
 def _lines(record: Record) -> Iterator[str]:
-    yield safe(record["file"], 200)
-    yield from (f"  {safe(note, 200)}" for note in record["notes"])
-    tables = [line for taken in record["taken"] for line in _table(taken)]
-    yield from _list("What was taken for what", tables)
-    yield from ("", record["verdict"])
+    yield from (record["verdict"], safe(record["file"], 200))
     first, differences = record["first"], record["differences"]
     if first:
         yield from ("", "First in order of calculation", *_difference(first))
-        depths = record["final_depths"]
-        for depth in filter(lambda depth: depth["explained_by"], depths):
-            cell = safe(depth["explained_by"], 60)
-            table = _of_table(depth["sheet"], depth["cells"], len(depths))
-            verb = "differs" if depth["differing"] == 1 else "differ"
-            yield _wrapped(
-                f"{cell} alone explains the final depth{table}; "
-                f"{count(depth['differing'], 'cell')} of its table {verb} from the right run",
-                "    ",
-            )
     aside = {"other input": "Other inputs than the report's, which are no fault",
              "not calculated": "Not covered"}  # fmt: skip
     apart = {*aside, "printed number"}  # these kinds have a paragraph of their own
@@ -272,6 +205,9 @@ def _lines(record: Record) -> Iterator[str]:
             for d in of_kind[:_MOST]
         ]
         yield from _list(title, lines, len(of_kind))
+    tables = [line for taken in record["taken"] for line in _table(taken)]
+    yield from _list("What was taken for what", tables)
+    yield from _list("Notes", [f"  {safe(note, 200)}" for note in record["notes"]])
     claims = record["claims"]
     unmet = [claim for claim in claims if not claim["met"]]
     shown = unmet or [c for c in claims if c["id"].startswith(("depth-", "ratio-"))]
@@ -311,10 +247,10 @@ def _table(taken: Record) -> Iterator[str]:
 _KNOWN_BY = {
     "rows": "in no cell; solved back from the rows",
     "report": "in no cell; the report's, with which the rows agree",
-    "assumed": "in no cell; the report's is assumed",
     "formulas": "in no cell; typed into the formulas",
     "values": "by its values",
-    "value": "by its value",
+    "response": "by its response",
+    "unread": "by its label; no formula of the table reads it",
     "--map": "as --map says",
 }
 
@@ -353,12 +289,12 @@ def _list(title: str, lines: Sequence[str], total: int = 0) -> Iterator[str]:
 # ---- for a browser
 
 
-def html(record: Record, differences: Sequence[Difference], calculation: Calculation) -> str:
+def html(record: Record, differences: Sequence[Difference], evaluator: Evaluator) -> str:
     """The page of a record, without scripts and with nothing loaded from outside.
 
     `differences` are those of the record, with their cells in the workbook that is drawn.
     """
-    sheets = list(calculation.book.sheets)
+    sheets = list(evaluator.book.sheets)
     marked = {d.place[0] for d in differences}
     pairs = zip(differences, record["differences"], strict=True)
     listed = sorted(pairs, key=lambda pair: _list_of(pair[1]))  # numbered in this order
@@ -371,7 +307,7 @@ def html(record: Record, differences: Sequence[Difference], calculation: Calcula
             (*_LISTS[k], list(entries))
             for k, entries in groupby(numbered, key=lambda entry: _list_of(entry[1]))
         ],
-        "sheets": [_drawn(name, differences, calculation) for name in sheets if name in marked],
+        "sheets": [_drawn(name, differences, evaluator) for name in sheets if name in marked],
     }
     filters = {"safe": safe, "contents": contents, "unit": written, "quantity": quantity,
                "known_by": _known_by}  # fmt: skip
@@ -397,24 +333,24 @@ def _anchor(place: Position, sheets: Sequence[str]) -> str:
     return f"c{sheets.index(place[0])}-{address(place)}" if place[0] in sheets else ""
 
 
-def _drawn(name: str, differences: Sequence[Difference], calculation: Calculation) -> Record:
+def _drawn(name: str, differences: Sequence[Difference], evaluator: Evaluator) -> Record:
     """A sheet with its differences marked: its name, column letters, and rows of cells."""
     origins = {d.place: number for number, d in reversed(list(enumerate(differences, 1)))}
     kinds = {place: d.kind.replace(" ", "-") for d in reversed(differences) for place in d.cells}
-    used = [p for p in (*calculation.values, *origins) if p[0] == name]
+    used = [p for p in (*evaluator.values, *origins) if p[0] == name]
     marked = [p for p in origins if p[0] == name]
     rows = _kept({p[1] for p in used}, {p[1] for p in marked}, _ROWS)
     columns = _kept({p[2] for p in used}, {p[2] for p in marked}, _COLUMNS)
-    sheets = list(calculation.book.sheets)
+    sheets = list(evaluator.book.sheets)
 
     def cell(row: int, column: int) -> Record:
         place = (name, row, column)
-        value, kind = calculation.values.get(place, ""), kinds.get(place)
+        value, kind = evaluator.values.get(place, ""), kinds.get(place)
         number = isinstance(value, float)
         classes = ("right" * number, kind and f"marked {kind}", "origin" * (place in origins))
         return {
             "text": f"{value:.6g}" if number else safe(value, 40),
-            "formula": safe(calculation.book[place].formula or "", 200),
+            "formula": safe(evaluator.book[place].formula or "", 200),
             "classes": " ".join(filter(None, classes)),
             "number": origins.get(place),
             "id": _anchor(place, sheets) if place in origins else "",
@@ -422,7 +358,7 @@ def _drawn(name: str, differences: Sequence[Difference], calculation: Calculatio
 
     return {
         "name": name,
-        "heads": [get_column_letter(column) for column in columns],
+        "heads": [column_letters(column) for column in columns],
         "rows": [(row, [cell(row, column) for column in columns]) for row in rows],
     }
 

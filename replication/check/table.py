@@ -1,212 +1,38 @@
-"""Find the tables of the scheme in a workbook: first its lines of numbers, then what they form.
+"""Find the tables of a workbook by their values alone: lines of numbers, down or across.
 
-A line is a column of numbers, or a row of numbers in a table that runs to the right. Tables are
-recognized by the heads of their lines and by their values: from row to row the depth grows by the
-velocity times a constant, and the velocity falls by the deceleration times the same constant,
-whatever the units are.
+From row to row of a table the depth grows by the velocity times a constant; the velocity at the
+start of a row repeats that at the end of the row before; the velocity falls by the deceleration
+times the same constant. Heads only decide between lines that fit alike, and name things.
 """
 
 import math
 import re
-from collections import Counter, defaultdict
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from itertools import groupby, pairwise, product, takewhile
+from itertools import groupby, pairwise
 from statistics import median
 from typing import NamedTuple
 
-from reference.units import same_dimension
-from replication.check.words import (
-    COLUMNS,
-    column_roles,
-    digits_of,
-    is_end,
-    is_unit,
-    result_of,
-    unit_in,
-)
+from replication.check.difference import span
+from replication.check.labels import is_sure
+from replication.check.words import column_roles, digits_of, is_unit, power_of_ten, unit_in
+from spreadsheets.evaluate import Evaluator, Shape, column_letters
 from spreadsheets.foreign import Position
-from spreadsheets.recalculation import Area, Calculation, Formula
 
 LEAST = 4
-"""The fewest numbers that make a line; the report itself prints five rows."""
+"""The fewest numbers of a line."""
+_MOST_LINES = 150
+"""The most lines of one sheet and direction that are compared with each other."""
 _GAP = 3
-"""The most cells without a number between two numbers of a line."""
-_ABOVE = 6
-"""How many cells above its first number, at most, a line's head may stand."""
-_MAX_LINES = 60
-"""The most depths, and the most velocities, that are tried with each other."""
-ROUNDED = 12
-"""Typed numbers with at most this many digits count as rounded."""
-_SAMPLE = 500
-"""About how many rows are compared to decide whether two lines belong together."""
-_CLOSE = 0.02
-"""How nearly a ratio must repeat from row to row: a velocity mostly falls by 1 % a row."""
-NEAR_END = 2
-"""How many rows before the last a result may show and still be taken for a final depth."""
-FEW = 64
-"""The most cells of a range that are looked at one by one; larger ranges are no inputs."""
-_SURE = 0.75
-"""The least score for a depth and its velocity: their values fit, or both have telling heads."""
-
-
-# ---- lines
-
-
-@dataclass(frozen=True)
-class Line:
-    """Numbers in one column of a sheet, or `across` it in one row; `number` says in which.
-
-    A cell's index is its row (across: its column), not counting the indices in `left_out`, which
-    are blank and which the formulas skip. `first` is the index of the first value; a value is None
-    where the cell holds no number. `given` is the role that the user named with --map.
-    """
-
-    calculation: Calculation = field(repr=False, compare=False)
-    sheet: str
-    across: bool
-    left_out: tuple[int, ...] = ()
-    number: int = 1
-    first: int = 1
-    values: tuple[float | None, ...] = ()
-    head: str | None = None
-    unit: str | None = None
-    unit_place: Position | None = None
-    given: str | None = None
-
-    @property
-    def last(self) -> int:
-        """The index of the last cell."""
-        return self.first + len(self.values) - 1
-
-    @cached_property
-    def roles(self) -> frozenset[str]:
-        """The roles that the line may have by the user's word, or else by its head."""
-        if self.given in COLUMNS:
-            return frozenset({self.given})
-        return column_roles(self.given or self.head or "")  # --map velocity names neither end
-
-    @property
-    def is_speed(self) -> bool:
-        """Whether the user or the head says that it is a velocity."""
-        return any(role.startswith("velocity") for role in self.roles)
-
-    def may_be(self, unit: str) -> bool:
-        """Whether nothing in its head contradicts a quantity of this unit."""
-        named = self.unit or "1"  # "(1)" may be a note rather than a unit
-        return not self.roles and (named == "1" or same_dimension(named, unit))
-
-    def place(self, at: int) -> Position:
-        """The cell at an index."""
-        for blank in self.left_out:
-            at += at >= blank
-        return (self.sheet, self.number, at) if self.across else (self.sheet, at, self.number)
-
-    def index(self, place: Position) -> int | None:
-        """The index of a cell, the inverse of `place`; None for a cell of another line."""
-        sheet, row, column = place
-        number, at = (row, column) if self.across else (column, row)
-        if (sheet, number) != (self.sheet, self.number) or at in self.left_out:
-            return None
-        return at - sum(blank < at for blank in self.left_out)
-
-    def follows(self, at: int) -> bool:
-        """Whether no left-out row (or column) lies between a cell and the one before it."""
-        (_, *before), (_, *after) = self.place(at - 1), self.place(at)
-        return sum(after) - sum(before) == 1
-
-    def covers(self, place: Position) -> bool:
-        """Whether a cell belongs to the line."""
-        at = self.index(place)
-        return at is not None and self.first <= at <= self.last
-
-    def overlaps(self, another: "Line") -> bool:
-        """Whether two lines have a cell in common and run in the same direction."""
-        own, its = ((line.sheet, line.number, line.across) for line in (self, another))
-        return own == its and self.first <= another.last and another.first <= self.last
-
-    def at(self, at: int) -> float | None:
-        """The number at an index."""
-        return self.values[at - self.first] if self.first <= at <= self.last else None
-
-    def change(self, at: int) -> float | None:
-        """The difference between a number and the one before it."""
-        before, after = self.at(at - 1), self.at(at)
-        return None if before is None or after is None else after - before
-
-    @property
-    def cells(self) -> list[Position]:
-        """Every cell of the line."""
-        return [self.place(at) for at in range(self.first, self.last + 1)]
-
-    @cached_property
-    def formulas(self) -> list[Formula]:
-        """The formulas among its cells."""
-        return list(filter(None, map(self.calculation.formulas.get, self.cells)))
-
-    def formula(self, at: int) -> Formula | None:
-        """The formula at an index."""
-        return self.calculation.formulas.get(self.place(at))
-
-    def reads_cell(self, at: int, source: int, of: "Line | None" = None) -> bool:
-        """Whether the formula at an index reads the cell at index `source` (`of` another line)."""
-        formula = self.formula(at)
-        return formula is not None and formula.reads((of or self).place(source))
-
-    def reads(self, source: "Line", back: int) -> bool:
-        """Whether most cells are formulas that read the source's cell `back` rows before."""
-        rows = range(self.first + 1, self.last + 1)[:: 1 + len(self.values) // _SAMPLE]
-        return sum(self.reads_cell(at, at - back, source) for at in rows) >= 0.5 * len(rows)
-
-    @cached_property
-    def falls(self) -> bool:
-        """Whether it looks like a velocity: positive at first, lower at the end, rarely rising."""
-        pairs = list(pairwise(self.numbers))
-        falling = sum(b <= a for a, b in pairs)
-        ends_lower = bool(pairs) and pairs[0][0] > max(0.0, pairs[-1][1])
-        return ends_lower and falling >= 0.9 * len(pairs)
-
-    @cached_property
-    def rises(self) -> bool:
-        """Whether it looks like a depth: not negative, rarely falling, and no count of the rows.
-
-        Only the rows down to the deepest are compared: beyond the standstill the scheme takes the
-        particle back.
-        """
-        deepest = self.numbers.index(max(self.numbers))
-        pairs = list(pairwise(self.numbers[: deepest + 1]))
-        rising = sum(b >= a for a, b in pairs)
-        counts = all(b - a == 1 for a, b in pairs)
-        is_long = len(pairs) >= LEAST - 1
-        return is_long and pairs[0][0] >= 0 and rising >= 0.9 * len(pairs) and not counts
-
-    @property
-    def may_rise(self) -> bool:
-        """Whether it rises, or would without a fault: it has a unit, and adds to the row before."""
-        return self.rises or (self.unit is not None and self.reads(self, 1))
-
-    @cached_property
-    def numbers(self) -> list[float]:
-        """The values of the cells that hold a number."""
-        return [value for value in self.values if value is not None]
-
-    def headed(self) -> "Line":
-        """The line with its head and unit, from the texts above it (across: at its left)."""
-        unit = place = None
-        for at in range(self.first - 1, max(self.first - 1 - _ABOVE, 0), -1):
-            text = self.calculation.values.get(self.place(at), "")
-            if not isinstance(text, str):
-                break  # beyond a number stand the head and the unit of something else
-            is_head = bool(text.strip()) and not is_unit(text)
-            if unit is None and (unit := unit_in(text) if is_head else is_unit(text)):
-                place = self.place(at)
-            if is_head:
-                head, above = text.strip(), self.calculation.values.get(self.place(at - 1))
-                if isinstance(above, str) and is_end(head) and replace(self, head=above).is_speed:
-                    head = f"{above.strip()} {head}"  # "Velocity", with "initial" below it
-                return replace(self, head=head, unit=unit, unit_place=place)
-        return replace(self, unit=unit, unit_place=place)
+"""So many blank rows may be left out inside a table."""
+_HEADS = 5
+"""How far above its numbers the head of a line may stand."""
+_EXACT = 1e-9
+"""Relative difference up to which formulas follow a relation; they round to some 1e-15."""
+_LOOSE = 0.05
+"""The same where no pair of lines follows one exactly, as in another scheme."""
 
 
 def address(place: Position, with_sheet: bool = False) -> str:
@@ -215,24 +41,11 @@ def address(place: Position, with_sheet: bool = False) -> str:
     >>> address(("Sheet1", 9, 4)), address(("my sheet", 9, 4), with_sheet=True)
     ('D9', "'my sheet'!D9")
     """
-    from openpyxl.utils.cell import get_column_letter
-
     sheet, row, column = place
-    cell = f"{get_column_letter(column)}{row}"
+    cell = f"{column_letters(column)}{row}"
     plain = re.fullmatch(r"[A-Za-z_]\w*", sheet)
     quoted = sheet if plain else "'" + sheet.replace("'", "''") + "'"
     return f"{quoted}!{cell}" if with_sheet else cell
-
-
-def span(cells: Iterable[tuple[int, int]]) -> str:
-    """Return the address of the smallest area around some cells, given as (row, column).
-
-    >>> span([(9, 4), (8, 5)]), span([(1, 1)])
-    ('D8:E9', 'A1')
-    """
-    rows, columns = zip(*cells, strict=True)
-    corners = (("", end(rows), end(columns)) for end in (min, max))
-    return ":".join(dict.fromkeys(map(address, corners)))
 
 
 def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[list[Position]]:
@@ -252,480 +65,793 @@ def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[li
         yield [place for _, place in entries]
 
 
-def lines(calculation: Calculation) -> Iterator[Line]:
-    """Yield every line of a workbook, down the columns and across, with its head and unit."""
-    values, formulas = calculation.values, calculation.formulas
-    for (sheet, cells), across in product(calculation.book.sheets.items(), (False, True)):
-        # Cells by line number and index, which are column and row, or row and column if across.
-        places = {(p if across else p[::-1]): (sheet, *p) for p in cells}
-        used = {at for (_, at), place in places.items()
-                if place in formulas or not isinstance(values.get(place), str | None)}  # fmt: skip
-        blank = _left_out(Line(calculation, sheet, across), sorted(used), places)
-        by_line: dict[int, dict[int, float | None]] = {}
-        for (number, at), place in places.items():
-            value = calculation.number(place)
-            usable = None if value is None or not math.isfinite(value) else value
-            # An error belongs to a line that has gone wrong, and so does the text that causes it.
-            belongs = usable is not None or calculation.error(place) or place in calculation.unknown
-            belongs = belongs or is_spoiling(place, calculation, across)
-            if belongs and not _sums_up(calculation, place, across):
-                by_line.setdefault(number, {})[at - sum(b < at for b in blank)] = usable
-        filled = Counter(at for numbers in by_line.values() for at in numbers)
-        for number, numbers in sorted(by_line.items()):
-            line = Line(calculation, sheet, across, blank, number)
-            for first, last in _runs(sorted(numbers), filled, line):
-                run = tuple(numbers.get(at) for at in range(first, last + 1))
-                yield replace(line, first=first, values=run).headed()
+@dataclass(frozen=True, eq=False)
+class Line:
+    """A column (or, `across`, a row) of numbers, by their index along it.
 
-
-def is_spoiling(place: Position, calculation: Calculation, across: bool) -> bool:
-    """Whether a cell holds a text that makes formulas fail, and is not a head of a line.
-
-    Formulas may stray to a head; it is recognized by another text beside it.
+    `head` is the text above, `unit` the unit that it states, if any; `sure`: that unit stands in
+    brackets or in a cell of its own. `given`: the user named the line. `meant` is the formula that
+    its cells should have, if it is known by what it gives.
     """
-    if place not in calculation.spoiling:
-        return False
-    sheet, row, column = place
-    beside = ((row + k, column) if across else (row, column + k) for k in (-1, 1))
-    values = (calculation.values.get((sheet, *cell)) for cell in beside)
-    is_beside_head = any(isinstance(value, str) and value and value[0] != "#" for value in values)
-    return not (is_beside_head or column_roles(str(calculation.values.get(place))))
+
+    evaluator: Evaluator
+    sheet: str
+    across: bool
+    number: int
+    values: Mapping[int, float]
+    given: str | None = None
+    meant: Shape | None = None
+
+    def place(self, index: int) -> Position:
+        """The cell at an index."""
+        if self.across:
+            return self.sheet, self.number, index
+        return self.sheet, index, self.number
+
+    @cached_property
+    def texts(self) -> list[str]:
+        """The texts above the first number, the nearest first."""
+        first, texts = min(self.values), []
+        for index in range(first - 1, max(0, first - 1 - _HEADS), -1):
+            value = self.evaluator.values.get(self.place(index))
+            if isinstance(value, float):
+                break
+            if isinstance(value, str) and self.place(index) not in self.evaluator.formulas:
+                texts.append(value)
+        return texts
+
+    @property
+    def head(self) -> str:
+        """The nearest text above that is no unit."""
+        return next((text for text in self.texts if not is_unit(text)), "")
+
+    @cached_property
+    def unit(self) -> str | None:
+        """The unit in the nearest text above that has one."""
+        for text in self.texts[:2]:
+            if unit := is_unit(text) or unit_in(text):
+                return unit
+        return None
+
+    @property
+    def unit_place(self) -> Position | None:
+        """The cell above in which a unit stands."""
+        first = min(self.values)
+        for index in range(first - 1, max(0, first - 1 - _HEADS), -1):
+            value = self.evaluator.values.get(self.place(index))
+            if isinstance(value, str) and (is_unit(value) or unit_in(value)):
+                return self.place(index)
+        return None
+
+    @property
+    def sure(self) -> bool:
+        """Whether the unit stands in brackets, after "in", or in a cell of its own."""
+        stated = (text for text in self.texts[:2] if is_unit(text) or unit_in(text))
+        return any(map(is_sure, stated))
+
+    @cached_property
+    def roles(self) -> frozenset[str]:
+        """The columns of the scheme that the head may name; "other" for another quantity."""
+        return column_roles(self.head) if self.head else frozenset()
+
+    @cached_property
+    def computed(self) -> bool:
+        """Whether most of its cells are formulas."""
+        formulas = self.evaluator.formulas
+        return sum(self.place(i) in formulas for i in self.values) > len(self.values) / 2
+
+    @cached_property
+    def grows(self) -> bool:
+        """Whether most numbers are larger than those before them."""
+        ordered = [self.values[index] for index in sorted(self.values)]
+        return sum(b > a for a, b in pairwise(ordered)) > 0.8 * (len(ordered) - 1)
+
+    @cached_property
+    def falls(self) -> bool:
+        """Whether few numbers are larger than those before them."""
+        ordered = [self.values[index] for index in sorted(self.values)]
+        return sum(b > a for a, b in pairwise(ordered)) < 0.2 * (len(ordered) - 1)
+
+    @cached_property
+    def positive(self) -> bool:
+        """Whether most numbers are above zero."""
+        return sum(value > 0 for value in self.values.values()) > 0.8 * len(self.values)
+
+    @cached_property
+    def _digits(self) -> tuple[int, int]:
+        """The most digits of a typed number, and the power of ten of the last digit."""
+        counts = [digits_of(value) for value in self.values.values() if value]
+        return max((n for n, _ in counts), default=15), min((p for _, p in counts), default=-300)
+
+    def rounding(self, value: float) -> float:
+        """How far a number of this line may be from the one that was meant, by its digits."""
+        if self.computed or value == 0 or not math.isfinite(value):
+            return 1e-14 * abs(value)
+        digits, last = self._digits
+        if digits >= 15:
+            return 1e-15 * abs(value)
+        least = 10.0 ** (math.floor(math.log10(abs(value))) - max(digits, 3) + 1)
+        return 0.5 * max(least, 10.0**last if last > -300 else 0.0)
+
+    @cached_property
+    def usual(self) -> Shape | None:
+        """The formula that most cells have, if a third have one."""
+        if self.meant is not None:
+            return self.meant
+        shapes = self.shapes
+        if not shapes:
+            return None
+        shape, count = shapes.most_common(1)[0]
+        return shape if count > 2 and 3 * count >= len(self.values) - 2 else None
+
+    @cached_property
+    def shapes(self) -> Counter[Shape]:
+        """Its formulas, with the number of cells that have each."""
+        formulas, counter = self.evaluator.formulas, Counter[Shape]()
+        for index in self.values:
+            if (shape := formulas.get(self.place(index))) is not None:
+                counter[shape] += 1
+        return counter
 
 
-def _sums_up(calculation: Calculation, place: Position, across: bool) -> bool:
-    """Whether a formula combines many cells of its own column (or row), such as their maximum."""
-    areas, line = calculation.areas(place), 1 if across else 2
-    if len(areas) != 1 or areas[0].cells < LEAST:
-        return False
-    return {(end[0], end[line]) for end in areas[0].ends} == {(place[0], place[line])}
+@dataclass(frozen=True, eq=False)
+class Table:
+    """A table of the scheme: its lines by role, other lines beside them, and its rows.
 
-
-def _left_out(
-    line: Line, used: Sequence[int], places: Iterable[tuple[int, int]]
-) -> tuple[int, ...]:
-    """Return the blank rows (or columns) that formulas skip when they read the row before.
-
-    `used` are the indices of cells with a formula or a number; `places` are all cells by line
-    number and index.
+    `rows` gives the index of each row by its number: row 0 is the impact, row 1 the first step.
+    Row 0 need not be shown. `whole`: its first rows are there; a part of a table starts later.
     """
-    numbers = defaultdict[int, list[int]](list)
-    for number, at in places:
-        numbers[at].append(number)
-    skipped: list[int] = []
-    for before, after in pairwise(used):
-        if after - before == 1:
-            continue
-        along = [replace(line, number=number) for number in numbers[before]]
-        growing = [column for column in along if column.reads_cell(before, before - 1)]
-        skipping = [column for column in along if column.reads_cell(after, before)]
-        # A table goes on in all its growing lines and in the rows after; a cell that only repeats
-        # its last row does not. The row of the impact reads no row before, so nothing grows there:
-        # then two lines, such as time and depth, must skip a gap that holds nothing at all.
-        going_on = [c for c in growing or skipping if c.reads_cell(after + 1, after)]
-        is_blank = not any(map(numbers.get, range(before + 1, after)))
-        if set(growing) <= set(skipping) and (
-            (growing and going_on) or (is_blank and len(going_on) > 1)
-        ):
-            skipped += range(before + 1, after)
-    return tuple(skipped)
+
+    evaluator: Evaluator
+    sheet: str
+    across: bool
+    lines: dict[str, Line]
+    helpers: tuple[Line, ...]
+    rows: Mapping[int, int]
+    whole: bool = True
+    places: dict[Position, tuple[str, int]] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        for role, line in self.lines.items():
+            for k, index in self.rows.items():
+                self.places[line.place(index)] = role, k
+
+    @property
+    def steps(self) -> int:
+        """The number of its last row."""
+        return max(self.rows)
+
+    def place(self, role: str, k: int) -> Position:
+        """The cell of a role in row k, which need not be shown."""
+        index = self.rows.get(k)
+        if index is None:
+            first = min(self.rows)
+            index = self.rows[first] - (first - k)
+        return self.lines[role].place(index)
+
+    def number(self, role: str, k: int) -> float | None:
+        """The number of a role in row k; None if there is none."""
+        if role not in self.lines or k not in self.rows:
+            return None
+        value = self.evaluator.values.get(self.place(role, k))
+        return value if type(value) is float else None
+
+    def area(self, role: str) -> str:
+        """The cells of a role as a range."""
+        ends = (self.place(role, k) for k in (min(self.rows), self.steps))
+        return span(place[1:] for place in ends)
+
+    @property
+    def follows(self) -> bool:
+        """Whether row k follows without a gap on row k - 1, in all rows."""
+        return all(b - a == 1 for a, b in pairwise(self.rows.values()))
 
 
-def _runs(places: Sequence[int], filled: Counter[int], line: Line) -> Iterator[tuple[int, int]]:
-    """Yield the first and the last index of each run of cells, given by their sorted indices.
+# ---- lines
 
-    A small gap ends a run only if other lines lack cells there, too (`filled` counts the cells at
-    an index), and if the formula after the gap is not the one before it, filled on.
+
+def lines(evaluator: Evaluator) -> dict[tuple[str, bool], list[Line]]:
+    """All lines of numbers, by sheet and direction."""
+    numbers: dict[tuple[str, bool], dict[int, dict[int, float]]] = {}
+    typed: dict[tuple[str, bool], Counter[int]] = {}
+    texts: dict[tuple[str, bool], dict[int, set[int]]] = {}
+    for place, value in evaluator.values.items():
+        sheet, row, column = place
+        for across, number, index in ((False, column, row), (True, row, column)):
+            if type(value) is float:
+                line = numbers.setdefault((sheet, across), {}).setdefault(number, {})
+                line[index] = value
+            elif isinstance(value, str) and value.strip() and place not in evaluator.formulas:
+                typed.setdefault((sheet, across), Counter())[index] += 1
+                texts.setdefault((sheet, across), {}).setdefault(number, set()).add(index)
+    found: dict[tuple[str, bool], list[Line]] = {}
+    for key, by_number in numbers.items():
+        heads = {index for index, count in typed.get(key, Counter()).items() if count > 1}
+        for number in sorted(by_number):
+            own = heads & texts.get(key, {}).get(number, set())
+            for values in _runs(by_number[number], own):
+                found.setdefault(key, []).append(Line(evaluator, *key, number, values))
+    return found
+
+
+def _runs(values: dict[int, float], heads: set[int]) -> Iterator[dict[int, float]]:
+    """Cut a line at its heads and at long gaps."""
+    run: dict[int, float] = {}
+    last = 0
+    for index in sorted(values):
+        broken = index - last > _GAP + 1 or any(last < head < index for head in heads)
+        if run and broken:
+            if len(run) >= LEAST:
+                yield run
+            run = {}
+        run[index] = values[index]
+        last = index
+    if len(run) >= LEAST:
+        yield run
+
+
+# ---- relations between lines
+
+
+def _pairs(line: Line) -> list[tuple[int, int]]:
+    """The indices of neighbouring numbers of a line."""
+    return list(pairwise(sorted(line.values)))
+
+
+def _share(terms: Sequence[tuple[float, float, float]], close: float) -> tuple[float, float]:
+    """The constant c for which a = c b in most of some (a, b, tolerance), and their share."""
+    ratios = [a / b for a, b, _ in terms if b]
+    if len(ratios) < LEAST - 1:
+        return 0.0, 0.0
+    c = median(ratios)
+    good = tested = 0
+    for a, b, tolerance in terms:
+        if abs(a) > 4 * tolerance:
+            tested += 1
+            good += abs(a - c * b) <= tolerance + close * abs(a)
+    return (c, good / tested) if tested >= LEAST - 1 else (c, 0.0)
+
+
+def _sampled(pairs: Sequence[tuple[int, int]]) -> Sequence[tuple[int, int]]:
+    step = max(1, len(pairs) // 9)
+    return pairs[::step]
+
+
+def grows_by(depth: Line, speed: Line, lag: int, close: float = _EXACT) -> tuple[float, float]:
+    """The constant by which the depth grows with the velocity, and the share of such rows.
+
+    `lag` 0 takes the velocity in the same row, 1 that in the row before.
     """
-    first = places[0]
-    for before, after in pairwise([*places, places[-1] + _GAP + 2]):
-        if not (gap := range(before + 1, after)):
-            continue
-        above, below = line.formula(before), line.formula(after)
-        goes_on = above and below and above.shape == below.shape
-        if len(gap) > _GAP or not (goes_on or all(filled[at] > 1 for at in gap)):
-            if before - first + 1 >= LEAST:
-                yield first, before
-            first = after
+    pairs = _pairs(depth)
+
+    def terms(of: Sequence[tuple[int, int]], exact: bool) -> list[tuple[float, float, float]]:
+        result = []
+        for before, now in of:
+            v = speed.values.get(before if lag else now)
+            if v is not None:
+                x, last = depth.values[now], depth.values[before]
+                tolerance = 0.0
+                if exact:
+                    tolerance = depth.rounding(x) + depth.rounding(last)
+                    if v:
+                        tolerance += abs(x - last) * speed.rounding(v) / abs(v)
+                result.append((x - last, v, tolerance))
+        return result
+
+    sample = [a / b for a, b, _ in terms(_sampled(pairs), False) if b]
+    if len(sample) < LEAST - 1:
+        return 0.0, 0.0
+    middle = median(sample)
+    near = sum(abs(ratio - middle) <= 0.2 * abs(middle) for ratio in sample)
+    if middle == 0 or near < len(sample) / 2:
+        return 0.0, 0.0
+    return _share(terms(pairs, True), close)
+
+
+def repeats(start: Line, end: Line) -> float:
+    """The share of rows whose velocity at the start repeats that at the end of the row before."""
+    pairs = [(end.values[i], start.values[j]) for i, j in _pairs(start) if i in end.values]
+    if len(pairs) < LEAST - 1:
+        return 0.0
+    distinct = len(set(start.values.values())) > 2
+    same = sum(
+        abs(a - b) <= 2e-14 * abs(a) + start.rounding(b) * (not start.computed) for a, b in pairs
+    )
+    return same / len(pairs) if distinct else 0.0
+
+
+def _is_repeated(start: Line, end: Line) -> bool:
+    """Whether one velocity repeats another; of formulas a third tell it, as none does by chance."""
+    return repeats(start, end) > (0.3 if start.computed and end.computed else 0.5)
+
+
+def _is_constant(line: Line) -> bool:
+    values = list(line.values.values())
+    return sum(value == values[0] for value in values) > 0.8 * len(values)
+
+
+def _falls(speed: Line, other: Line | None, role: str) -> list[tuple[int, float, float]]:
+    """How much the velocity falls in each row: the row's index, the fall and its rounding."""
+    falls = []
+    pairs = _pairs(speed)
+    if other is not None:  # velocities at both ends of a row
+        for index, v in speed.values.items():
+            w = other.values.get(index)
+            if w is not None:
+                falls.append((index, v - w, speed.rounding(v) + other.rounding(w)))
+    else:
+        for before, now in pairs:
+            v, w = speed.values[before], speed.values[now]
+            index = before if role == "velocity_initial" else now
+            falls.append((index, v - w, speed.rounding(v) + speed.rounding(w)))
+    return falls
 
 
 # ---- tables
 
 
-class Result(NamedTuple):
-    """A cell that a `label` calls the final depth, or the "ratio" of the depth to the radius.
+def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[Table]:
+    """The tables of a workbook in the order of its sheets; `given` are lines that a user named."""
+    found: list[Table] = []
+    every = lines(evaluator)
+    if given.keys() & {"depth", "velocity", "velocity_initial", "velocity_final"}:
+        line = next(iter(given.values()))
+        beside = [o for o in every.get((line.sheet, line.across), []) if o.number not in
+                  {g.number for g in given.values()}]  # fmt: skip
+        table = _given(evaluator, given, beside)
+        return [table] if table else []
+    longest = {key: max(len(o.values) for o in known) for key, known in every.items()}
+    for known in every.values():
+        found += _by_heads(evaluator, [o for o in known if not o.computed and len(o.values) < 8])
+    for close in (_EXACT, _LOOSE):
+        for _, known in sorted(every.items(), key=lambda item: -longest[item[0]]):
+            taken = {place for table in found for place in table.places}
+            free = [o for o in known if not any(o.place(i) in taken for i in o.values)]
+            found += _on_sheet(evaluator, free[:_MOST_LINES], close)
+        if found:
+            break
+    if not found:
+        for known in every.values():
+            found += _by_heads(evaluator, known)
+    order = {name: number for number, name in enumerate(evaluator.book.sheets)}
+    found = [t for t in found if not any(_shows(t, o) for o in found if o is not t)]
+    return sorted(found, key=lambda t: (order[t.sheet], min(t.places)))
 
-    `where` it stands: the "first" number beside its label; one "beyond" the first, which may also
-    be a deviation from another number; or one "listed" in a column below the label, where each
-    number may belong to a table of its own, or to any row.
-    """
 
-    kind: str
-    place: Position
-    unit: str | None
-    label: Position
-    where: str
+def _by_heads(evaluator: Evaluator, known: Sequence[Line]) -> list[Table]:
+    """The table of lines whose heads name them, where values do not tell."""
+    named = {role: o for o in reversed(known) for role in o.roles if len(o.roles) == 1}
+    if not {"depth", "velocity_initial"} <= named.keys() or not named["depth"].grows:
+        return []
+    table = _given(evaluator, {r: o for r, o in named.items() if r != "other"}, [])
+    return [table] if table else []
 
 
-@dataclass
-class Table:
-    """One run of the scheme: its columns by role, and the index of its row 0.
+def _shows(table: Table, other: Table) -> bool:
+    """Whether a table only shows another one, cell by cell."""
+    line = table.lines["depth"]
+    if not line.computed:
+        return False
+    if _reads(line, line) or any(_reads(line, o) for o in table.lines.values() if o is not line):
+        return False
+    some = sorted(i for i in line.values if line.place(i) in table.evaluator.formulas)[:20]
+    reads = sum(any(cell in other.places for cell in behind(line, i)) for i in some)
+    return reads > len(some) / 2
 
-    Row k of the scheme stands at index `zero` + k of the lines, up to k = `steps`. A table need not
-    show row 0. `helpers` are other lines beside it.
-    """
 
-    lines: Mapping[str, Line]
-    zero: int
-    steps: int
-    helpers: tuple[Line, ...] = ()
+def _on_sheet(evaluator: Evaluator, known: Sequence[Line], close: float) -> list[Table]:
+    """The tables among some lines of a sheet, the best pairs of depth and velocity first."""
+    pairs = list(_pairs_of(known, close))
+    if any(not pair.depth.computed for pair in pairs):
+        pairs = [
+            pair._replace(score=pair.score + _support(pair.speed, pair.c, known)) for pair in pairs
+        ]
+    found: list[Table] = []
+    used: set[Position] = set()
 
-    def __post_init__(self) -> None:
-        depth = self.lines["depth"]
-        self.calculation, self.sheet, self.across = depth.calculation, depth.sheet, depth.across
-        self.every_line = (*self.lines.values(), *self.helpers)
+    def is_free(line: Line) -> bool:
+        return used.isdisjoint(map(line.place, line.values))
 
-    def place(self, role: str, k: int) -> Position:
-        """The cell of a role in row k."""
-        return self.lines[role].place(self.zero + k)
+    for _, depth, speed, lag, c in sorted(pairs, key=lambda pair: -pair.score):
+        if not (is_free(depth) and is_free(speed)):
+            continue
+        table = _made(evaluator, depth, speed, lag, c, [o for o in known if is_free(o)])
+        if table is None or any(_beside(table, o) for o in found):
+            continue
+        if depth.computed or len(table.lines) > 2 or not found:
+            found.append(table)
+            used.update(table.places)
+    return found
 
-    @property
-    def speed(self) -> str:
-        """The role of its velocity; if it shows both, that at the beginning of a row."""
-        return "velocity_initial" if "velocity_initial" in self.lines else "velocity_final"
 
-    def number(self, role: str, k: int) -> float | None:
-        """The number in the cell of a role in row k."""
-        return self.lines[role].at(self.zero + k)
+class _Pair(NamedTuple):
+    """A depth that grows by a velocity times `c`, of the same row (`lag` 0) or the one before."""
 
-    def area(self, role: str) -> str:
-        """The address of the cells of a role, from the first number to the last."""
-        rows = [k for k in range(self.steps + 1) if self.number(role, k) is not None]
-        return span(self.place(role, k)[1:] for k in (rows or [0, self.steps]))
+    score: float
+    depth: Line
+    speed: Line
+    lag: int
+    c: float
 
-    @property
-    def results(self) -> list[Result]:
-        """The labelled results, without those in lists."""
-        return [result for result in self.labelled if result.where != "listed"]
 
-    @cached_property
-    def labelled(self) -> list[Result]:
-        """Cells beside or below a label that says final depth, or depth over radius.
-
-        Numbers that stand below one another under a label are a list. A cell that is only called a
-        depth, or that stands beyond the first number, counts only if it reads a depth of the table.
-        """
-        labelled: list[Result] = []
-        for label, text in self.calculation.values.items():
-            sheet, row, column = label
-            kind = result_of(text) if isinstance(text, str) else None
-            if kind == "any depth" and str(text)[0] == (self.lines["depth"].head or "")[:1] == "X":
-                continue  # where the column of depths is called X, too, X may be that of any row
-            for down, right in ((0, 1), (0, 2), (1, 0), (0, -1)) if kind else ():
-                steps = ((k, 0) if down else (0, k) for k in range(FEW))
-                places = ((sheet, row + down + i, column + right + j) for i, j in steps)
-                cells = list(takewhile(self._is_beside, places))
-                is_list = down and self.calculation.number((sheet, row + 2, column)) is not None
-                for cell in cells:
-                    where = "listed" if is_list else "first" if cell == cells[0] else "beyond"
-                    # A number at the left may have a label of its own.
-                    is_called = kind != "any depth" and where == "first" and right >= 0
-                    if is_called or self.gives_depth(cell):
-                        labelled.append(self._result(kind == "ratio", cell, label, where))
-                if cells:
-                    break
-        return labelled or self._unnamed()
-
-    def _unnamed(self) -> list[Result]:
-        """The only labelled cell that shows a depth near the end, whatever language labels it."""
-        values, depth = self.calculation.values, self.lines["depth"]
-        shown = []
-        for sheet, row, column in self.calculation.formulas:
-            _, *read = self.calculation.chain((sheet, row, column))
-            at = depth.index(read[0]) if read else None
-            text = values.get(label := (sheet, row, column - 1))
-            # A number in the label may be that of a row.
-            is_labelled = isinstance(text, str) and not (is_unit(text) or re.search(r"\d", text))
-            near_end = at is not None and 0 <= self.zero + self.steps - at <= NEAR_END
-            if is_labelled and near_end and self._is_beside((sheet, row, column)):
-                shown.append(self._result(False, (sheet, row, column), label, "first"))
-        return shown if len(shown) == 1 else []
-
-    def _is_beside(self, place: Position) -> bool:
-        """Whether a cell holds a number and belongs to no line of the table."""
-        is_number = self.calculation.number(place) is not None
-        return is_number and not any(line.covers(place) for line in self.every_line)
-
-    def _result(self, is_ratio: bool, place: Position, label: Position, where: str) -> Result:
-        """Return a result with its unit, as its label or a cell beside it gives it."""
-        sheet, row, column = place
-        near = (self.calculation.values.get((sheet, row, column + side)) for side in (1, -1))
-        texts = [text for text in near if isinstance(text, str)]
-        # The label's unit need not be that of the numbers beyond the first.
-        named = unit_in(str(self.calculation.values[label])) if where != "beyond" else None
-        unit = named or next(filter(None, map(is_unit, texts)), None)
-        kind, measure = ("ratio", "1") if is_ratio else ("depth", "m")
-        fits = unit is not None and same_dimension(unit, measure)
-        return Result(kind, place, unit if fits else None, label, where)
-
-    def gives_depth(self, place: Position) -> bool:
-        """Whether a cell beside the table reads one of its depths, directly or not."""
-        return "depth" in self.readers.get(place, ())
-
-    @cached_property
-    def readers(self) -> dict[Position, set[str]]:
-        """The cells beside the table that read it, directly or not, and what they read of it.
-
-        That is the roles of its columns, and "last" for the depth in the last row.
-        """
-        areas = {}
-        for name in (*self.lines, "last"):
-            role, first = ("depth", self.steps) if name == "last" else (name, 0)
-            (sheet, *begin), (_, *end) = (self.place(role, k) for k in (first, self.steps))
-            areas[name] = Area(sheet, *begin, *end)
-        readers: dict[Position, set[str]] = {}
-        for place in sorted(self.calculation.formulas, key=self.calculation.order.__getitem__):
-            if place in self.places:
+def _pairs_of(known: Sequence[Line], close: float) -> Iterator[_Pair]:
+    """The pairs of lines that may be depth and velocity."""
+    depths = [o for o in known if o.grows or (o.computed and _reads(o, o))]
+    speeds = [o for o in known if (o.positive or o.computed) and not _is_constant(o)]
+    if close == _LOOSE:
+        depths, speeds = ([o for o in some if o.computed] for some in (depths, speeds))
+    for depth in depths:
+        for speed in speeds:
+            if speed is depth or len(speed.values.keys() & depth.values.keys()) < LEAST - 1:
                 continue
-            for area in self.calculation.areas(place):
-                read = {name for name, wanted in areas.items() if area.overlaps(wanted)}
-                # Of a large area, such as a long column, only the ends are looked at.
-                cells = area.places() if area.cells <= FEW else area.ends
-                read = read.union(*(readers.get(cell, ()) for cell in cells))
-                if read:
-                    readers.setdefault(place, set()).update(read)
-        return readers
-
-    @cached_property
-    def places(self) -> dict[Position, tuple[str, int]]:
-        """The role and the row of every cell of the table."""
-        rows = range(self.steps + 1)
-        return {self.place(role, k): (role, k) for role in self.lines for k in rows}
-
-    @cached_property
-    def digits(self) -> int | None:
-        """The digits that the least precise column but the time is rounded to.
-
-        None unless all its numbers are typed, and rounded.
-        """
-        lines = [line for role, line in self.lines.items() if role != "time"]
-        rows = range(self.zero + 1, self.zero + self.steps + 1)
-        if any(line.formula(at) for line in lines for at in rows):
-            return None
-        fewest = min(digits for role, (digits, _) in self.roundings.items() if role != "time")
-        return fewest if fewest <= ROUNDED else None
-
-    @cached_property
-    def roundings(self) -> dict[str, tuple[int, int]]:
-        """The digits of each column, and the power of ten of its last decimal.
-
-        People round to a number of digits or to a number of decimals. The digits are those of all
-        numbers but the longest 5 %; row 0, which is exact, is left out.
-        """
-        roundings = {}
-        for role in self.lines:
-            numbers = (self.number(role, k) for k in range(1, self.steps + 1))
-            parts = sorted(digits_of(x) for x in numbers if x)
-            digits = parts[len(parts) * 19 // 20][0] if parts else 17
-            powers = (power for count, power in parts if count <= digits)
-            roundings[role] = digits, min(powers, default=-300)
-        return roundings
+            for lag in (0, 1):
+                c, share = grows_by(depth, speed, lag, close)
+                if share > 0.5 and c > 0 and _may_be(depth, speed):
+                    yield _Pair(_score(depth, speed, lag, share), depth, speed, lag, c)
 
 
-def tables(calculation: Calculation, given: Sequence[Line]) -> list[Table]:
-    """Return every table of the scheme in a workbook, in the order of sheets and columns.
+def _support(speed: Line, c: float, known: Sequence[Line]) -> float:
+    """How well other numbers support a velocity: one repeats it, or it falls by one times c."""
+    others = [line for line in known if line is not speed]
+    repeated = any(repeats(speed, line) > 0.5 or repeats(line, speed) > 0.5 for line in others)
+    falls: list[tuple[str, Line | None]] = [("velocity_initial", None), ("velocity_final", None)]
+    falls += [("velocity_initial", line) for line in others if repeats(speed, line) > 0.5]
+    falls += [("velocity_initial", speed) for line in others if repeats(line, speed) > 0.5]
+    for role, end in falls:
+        brake = _brake(_falls(speed, end, role), others, c, speed, strict=True)
+        if brake is not None:
+            return 1.0 + repeated
+    return float(repeated)
 
-    If the user named lines (`given`), return only the tables that have them all. Raises ValueError
-    if there is none.
+
+def _may_be(depth: Line, speed: Line) -> bool:
+    """Whether a pair of computed lines may be depth and velocity by what they read.
+
+    The depth is computed from the velocity, or both only show a table that stands elsewhere.
     """
-    known = [line for line in lines(calculation) if not any(map(line.overlaps, given))]
-    chosen: list[Table] = []
-    for depth, speed in _pairs([*known, *given]):
-        used = {line for table in chosen for line in table.lines.values()}
-        if not used & {depth, speed}:
-            table = _table(depth, speed, [line for line in (*known, *given) if line not in used])
-            # Other pairs of quantities grow like this, too: so both must have telling heads, or a
-            # third column must fit.
-            named = all(role in line.roles for role, line in table.lines.items())
-            if named or len(table.lines) > 2:
-                chosen.append(table)
-    if given:
-        chosen = [table for table in chosen if all(line in table.lines.values() for line in given)]
-        if not chosen:
-            raise ValueError(
-                "what --map names belongs to no table of depth and velocity: name both columns, "
-                "with the same number of rows"
-            )
-    shown = [table for table in chosen if not _is_view(table, chosen)]
-    taken = {line for table in shown for line in table.lines.values()}
-
-    def is_own(line: Line, table: Table) -> bool:
-        beside = (other for other in shown if line in other.helpers)
-        nearest = min(beside, key=lambda t: abs(t.lines["depth"].number - line.number))
-        return line not in taken and nearest is table
-
-    sheets = list(calculation.book.sheets)
-    in_order = sorted(shown, key=lambda t: (sheets.index(t.sheet), t.lines["depth"].number))
-    return [
-        replace(table, helpers=tuple(line for line in table.helpers if is_own(line, table)))
-        for table in in_order
-    ]
+    if not (depth.computed and speed.computed):
+        return speed.falls
+    return _reads(depth, speed) or not _reads(depth, depth)
 
 
-def _pairs(known: Sequence[Line]) -> list[tuple[Line, Line]]:
-    """Return lines that may be a depth and its velocity, the best pair first."""
-    # A reference that drifts for want of a $ may turn a column into errors from its fourth row on:
-    # a telling head makes up for the missing number.
-    able = [line for line in known if len(line.numbers) >= LEAST - bool(line.roles)]
-    longest = sorted(able, key=lambda line: (not line.roles, -len(line.values)))
-    depths = [x for x in longest if "depth" in x.roles or (x.may_be("m") and x.may_rise)]
-    speeds = [v for v in longest if v.is_speed or (v.may_be("m/s") and v.falls)]
-    scored = [
-        (_score(x, v), len(x.values), -abs(x.number - v.number), x, v)
-        for x, v in product(depths[:_MAX_LINES], speeds[:_MAX_LINES])
-        if (x.sheet, x.across) == (v.sheet, v.across)
-    ]
-    scored.sort(key=lambda entry: entry[:3], reverse=True)
-    return [(x, v) for score, *_, x, v in scored if score >= _SURE]
-
-
-def _score(depth: Line, speed: Line) -> float:
-    """Return how well two lines go together as depth and velocity.
-
-    Fitting values and telling heads give up to 1 each, formulas that read each other some more, and
-    --map the most. The values of a faulty sheet need not fit if its depths read the one before.
-    """
-    rows = range(max(depth.first, speed.first), min(depth.last, speed.last) + 1)
-    if len(rows) < LEAST:
-        return 0.0
-    fit = _constant((depth.change(at), speed.at(at)) for at in rows[:: 1 + len(rows) // _SAMPLE])
-    grows = depth.reads(depth, 1)
-    given = (depth.given is not None) + (speed.given is not None)
-    named = (depth.unit is not None or "depth" in depth.roles) + (
-        speed.unit is not None or speed.is_speed
-    )
-    final = speed.roles == {"velocity_final"}
-    reads = depth.reads(speed, 0) or depth.reads(speed, 1)
-    # A velocity that rises, or that does not follow from the depths, is the axis of a curve.
-    sure = grows or given or (named == 2 and reads and _rests_on(speed, depth))
-    if not sure and (fit < 0.5 or speed.numbers[-1] > speed.numbers[0]):
-        return 0.0
-    return fit + 0.5 * named + 0.3 * reads + 0.2 * grows - 0.2 * final + 2 * given
-
-
-def _rests_on(line: Line, source: Line) -> bool:
-    """Whether the last cell of a line reads the source through no more cells than a row has."""
-    cells = {line.place(line.last)}
-    for _ in COLUMNS:
-        cells = set[Position]().union(*map(line.calculation.corners, cells))
-        if any(map(source.covers, cells)):
-            return True
-    return False
-
-
-def _constant(pairs: Iterable[tuple[float | None, float | None]], close: float = _CLOSE) -> float:
-    """Return the share of pairs whose ratio equals the median ratio."""
-    ratios = [a / b for a, b in pairs if a is not None and b]
-    middle = median(ratios) if len(ratios) >= LEAST - 1 else 0.0
-    if not middle or not math.isfinite(middle):
-        return 0.0
-    return sum(abs(ratio / middle - 1) < close for ratio in ratios) / len(ratios)
-
-
-def _is_view(table: Table, tables: Sequence[Table]) -> bool:
-    """Whether a table only shows the depths of another one, apart from some typed cells."""
-    others = {place for another in tables if another is not table for place in another.places}
-    cells = [table.place("depth", k) for k in range(1, table.steps + 1)]
-    views = sum(not others.isdisjoint(table.calculation.corners(cell)) for cell in cells)
+def _beside(table: Table, other: Table) -> bool:
+    """Whether a table consists of lines that only show those of another one beside it."""
     depth = table.lines["depth"]
-    return views > 0.9 * len(cells) and not depth.reads(depth, 1)
+    if not depth.computed or _reads(depth, depth):
+        return False
+    return any(_reads(depth, line) for line in other.lines.values()) and not any(
+        _reads(line, depth) for line in other.lines.values()
+    )
 
 
-def _table(depth: Line, speed: Line, known: Sequence[Line]) -> Table:
-    """Return the table of a depth and a velocity, with its other columns and its rows."""
-    first, last = max(depth.first, speed.first), min(depth.last, speed.last)
-    beside = [
-        line
-        for line in known
-        if (line.sheet, line.across) == (depth.sheet, depth.across)
-        and line not in (depth, speed)
-        and min(line.last, last) - max(line.first, first) >= 0.5 * (last - first)
-    ]
-    initial = _at_beginning(depth, speed, beside)
-    roles = {"depth": depth, "velocity_initial" if initial else "velocity_final": speed}
-    for role in ("velocity_final" if initial else "velocity_initial", "deceleration", "time"):
-        free = [line for line in beside if line not in roles.values()]
-        fits = {line: _fits(role, line, speed, initial) for line in free}
-        if fits:
-            best = max(fits, key=lambda line: (fits[line], -abs(line.number - depth.number)))
-            if fits[best] >= 0.9:
-                roles[role] = best
-    zeros = [at for at in range(depth.first, min(depth.first + 4, last)) if depth.at(at) == 0]
-    touch = [at for at in zeros if "time" in roles and roles["time"].at(at) == 0]
-    zero = (touch or zeros or [first - 1])[-1]
-    last = _end(depth, speed, zero, last)
-    ordered = {role: roles[role] for role in COLUMNS if role in roles}
-    helpers = tuple(line for line in beside if line not in roles.values())
-    return Table(ordered, zero, last - zero, helpers)
+def _reads(line: Line, other: Line) -> bool:
+    """Whether the usual formula of a line reads another line, directly or by its helpers."""
+    if line.usual is None:
+        return False
+    own, wanted = line.place(_typical(line)), set(map(other.place, other.values))
+    return any(cell in wanted and cell != own for cell in behind(line, _typical(line), other))
 
 
-def _at_beginning(depth: Line, speed: Line, beside: Sequence[Line]) -> bool:
-    """Whether a velocity is that at the beginning of its row, not that at the end.
+def behind(line: Line, index: int, *stop: Line) -> set[Position]:
+    """The cells of single references that a cell of a line rests on, by way of its own row.
 
-    If the head does not tell, the values do: a velocity at the beginning of a row changes to that
-    of the next row by the row's own deceleration, one at the end changed from that of the row
-    before. Without decelerations: the depth grows by the velocity at the beginning of its row.
+    What stands behind cells of the lines of `stop` is not followed.
     """
-    if len(speed.roles) == 1 and not any("velocity_initial" in line.roles for line in beside):
-        return speed.roles == {"velocity_initial"}
-    brakes = [line for line in beside if "deceleration" in line.roles or not line.roles]
-    if not brakes:
-        same_row, next_row = (_tied(depth, speed, back, 1e-9) for back in (0, 1))
-        return same_row >= next_row - 0.05
-    same_row, next_row = (max(_tied(speed, line, back) for line in brakes) for back in (0, 1))
-    return next_row >= same_row - 0.05
+    evaluator, own = line.evaluator, line.place(index)
+    read, waiting = set[Position](), [own]
+    while waiting and len(read) < 200:
+        for area in evaluator.areas(waiting.pop()):
+            cell = (area.sheet, area.top, area.left)
+            if area.cells > 1 or cell in read:
+                continue
+            read.add(cell)
+            along = cell[2] if line.across else cell[1]
+            number = cell[1] if line.across else cell[2]
+            if cell[0] == line.sheet and along == index and all(o.number != number for o in stop):
+                waiting.append(cell)
+    return read
 
 
-def _tied(line: Line, source: Line, back: int, close: float = _CLOSE) -> float:
-    """Return the share of rows where a line changes in proportion to the source `back` rows ago."""
-    rows = range(source.first, source.last + 1)
-    return _constant(((line.change(at + back), source.at(at)) for at in rows), close)
+def _typical(line: Line) -> int:
+    """An index in the middle of a line, where it has its usual formula."""
+    formulas = line.evaluator.formulas
+    indices = [i for i in sorted(line.values) if formulas.get(line.place(i)) is line.usual]
+    return indices[len(indices) // 2] if indices else min(line.values)
 
 
-def _fits(role: str, line: Line, speed: Line, initial: bool) -> float:
-    """Return how well a line fits a role: up to 1 each for head and values, 3 for --map."""
-    named = (role in line.roles) * (3.0 if line.given else 1.0)
-    if line.roles and not any(named_role[:4] == role[:4] for named_role in line.roles):
-        return 0.0
-    if role.startswith("velocity"):
-        later = 1 if initial else -1
-        rows = range(line.first, line.last + 1)
-        pairs = ((line.at(at), speed.at(at + later)) for at in rows)
-        both = [(a, b) for a, b in pairs if a is not None and b is not None]
-        same = sum(math.isclose(a, b, rel_tol=1e-9) for a, b in both) / max(len(both), 1)
-        before, after = (line, speed) if initial else (speed, line)
-        typed = after.formula(after.last) is None
-        if same < 0.5 and not (typed or line.given or after.reads(before, 1)):
-            return 0.0  # no other row starts or ends with it, so it is that in mid-step
-        return named + same * line.falls
-    if role == "deceleration":
-        fit = _tied(speed, line, initial) + 0.5 * _tied(speed, line, initial, 1e-9)
-        return named + fit * (not line.falls)
-    steps = [b - a for a, b in pairwise(line.numbers)] or [0.0]
-    counts_rows = median(steps) == 1  # then only its head can make it a time
-    return named + _constant((step, 1.0) for step in steps) * (not counts_rows and min(steps) > 0)
+def _score(depth: Line, speed: Line, lag: int, share: float) -> float:
+    """How well a pair fits: by its rows, by what reads what, and by its heads."""
+    score = round(share, 1) + min(len(depth.values), 1000) / 1e4 - 0.1 * lag
+    score += 2 * depth.grows + 2 * speed.positive
+    if depth.computed and speed.computed:
+        score += 2 * (_reads(depth, depth) and not _by_view(depth)) + 2 * _reads(depth, speed)
+    score += 0.5 * ("depth" in depth.roles) + 0.3 * any("veloc" in r for r in speed.roles)
+    score -= 0.5 * (bool(depth.roles) and "depth" not in depth.roles)
+    return score - 0.5 * (bool(speed.roles) and not any("veloc" in r for r in speed.roles))
 
 
-def _end(depth: Line, speed: Line, zero: int, last: int) -> int:
-    """Return the index of the last row, without zeros and repeated rows after the standstill."""
-    for at in range(last, zero + 2, -1):
-        x, v = depth.at(at), speed.at(at)
-        stays = x == depth.at(at - 1) and v == speed.at(at - 1)
-        if x is None or v is None or not (stays or x == v == 0):
-            fastest = max(map(abs, speed.numbers))
-            ended = abs(speed.at(at) or 0.0) <= 0.2 * fastest and x is not None
-            if at >= last - 1 or not ended:
-                return last
-            # The velocities that end the motion may stand in rows that keep the depth.
-            moves = (k for k in range(at, zero, -1) if depth.at(k) != depth.at(k - 1))
-            return next(moves, last)
-    return last
+def _by_view(line: Line) -> bool:
+    """Whether a line only shows another one in its own rows."""
+    shape = line.usual
+    return shape is not None and len(shape.references) == 1 and not _reads(line, line)
+
+
+def _made(
+    evaluator: Evaluator, depth: Line, speed: Line, lag: int, c: float, known: Sequence[Line]
+) -> Table | None:
+    """The table of a depth and a velocity, with the lines that belong to it."""
+    others = [o for o in known if o not in (depth, speed)]
+    roles: dict[str, Line] = {"depth": depth}
+    ends = [o for o in others if _is_repeated(speed, o)]
+    starts = [o for o in others if _is_repeated(o, speed)]
+    ends.sort(key=lambda o: (not _reads(speed, o), "velocity_final" not in o.roles))
+    starts.sort(key=lambda o: (not _reads(o, speed), "velocity_initial" not in o.roles))
+    if ends and (lag == 0 or not starts):
+        roles |= {"velocity_initial": speed, "velocity_final": ends[0]}
+    elif starts:
+        roles |= {"velocity_initial": starts[0], "velocity_final": speed}
+    else:
+        single = "velocity_final" if lag else "velocity_initial"
+        roles[_single(single, depth, speed)] = speed
+    return _completed(evaluator, roles, known, c)
+
+
+def _single(role: str, depth: Line, speed: Line) -> str:
+    """The end of the rows to which their only velocity belongs.
+
+    If the force of a row is taken at the velocity in the same row, that is the one at its start,
+    even where the depths move on by the velocity of the row before.
+    """
+    if role == "velocity_final" and not _is_ahead(speed, depth):
+        return "velocity_initial"
+    return role
+
+
+def _is_ahead(speed: Line, depth: Line) -> bool:
+    """Whether the velocity of a row is computed from the depth of the same row."""
+    if not speed.computed:
+        return True
+    index = _typical(speed)
+    return depth.place(index) in behind(speed, index, depth)
+
+
+def _completed(
+    evaluator: Evaluator, roles: dict[str, Line], known: Sequence[Line], c: float
+) -> Table | None:
+    """The table with its deceleration, time and helpers, and its rows numbered."""
+    depth = roles["depth"]
+    start = roles.get("velocity_initial")
+    speed = start or roles["velocity_final"]
+    role = "velocity_initial" if start else "velocity_final"
+    both = roles.get("velocity_final") if start else None
+    taken = set(roles.values())
+    others = [
+        o for o in known
+        if o not in taken and len(o.values.keys() & depth.values.keys()) >= len(depth.values) / 2
+    ]  # fmt: skip
+    if "deceleration" not in roles and (
+        brake := _brake(_falls(speed, both, role), others, c, both or speed)
+    ):
+        roles["deceleration"] = brake
+    if "time" not in roles and (time := _time(others, c, depth.number, set(roles.values()))):
+        roles["time"] = time
+    shown = sorted(set(depth.values) | set(speed.values))
+    first, last = min(depth.values), max(depth.values)
+    indices = _of_table([i for i in shown if first <= i <= last], depth, speed)
+    if len(indices) < LEAST:
+        return None
+    roles = {name: _within(line, indices) for name, line in roles.items()}
+    if both is not None:
+        roles[role] = _repeating(roles[role], roles["velocity_final"])
+    depth, speed = roles["depth"], roles[role]
+    zero, whole = _first_row(depth, speed, role, indices, c)
+    rows = dict(enumerate(indices, zero))
+    if max(rows) < 1:
+        return None
+    numbers = {line.number for line in roles.values()}
+    helpers = tuple(_within(o, indices) for o in others if o.number not in numbers)
+    return Table(evaluator, depth.sheet, depth.across, roles, helpers, rows, whole)
+
+
+def _repeating(start: Line, end: Line) -> Line:
+    """The velocities at the start of rows, with the formula meant that repeats those at the end.
+
+    Where two formulas share the column, it need not be the more frequent one.
+    """
+    formulas, counter = start.evaluator.formulas, Counter[Shape]()
+    for before, now in _pairs(start):
+        shape = formulas.get(start.place(now))
+        if shape is not None and end.values.get(before) == start.values[now]:
+            counter[shape] += 1
+    if not counter:
+        return start
+    shape, count = counter.most_common(1)[0]
+    is_usual = count > 2 and 3 * count >= len(start.values) - 2
+    return replace(start, meant=shape) if is_usual else start
+
+
+def _within(line: Line, indices: Sequence[int]) -> Line:
+    """The part of a line that belongs to some rows."""
+    return replace(
+        line, values={i: v for i, v in line.values.items() if indices[0] <= i <= indices[-1]}
+    )
+
+
+def _of_table(indices: list[int], depth: Line, speed: Line) -> list[int]:
+    """The rows of a table, without numbers that stand above or below it.
+
+    The last row has a usual formula. Before the first usual formula of the depths at most two rows
+    belong to the table, the impact and the first step. Without formulas, long gaps end it.
+    """
+    formulas = depth.evaluator.formulas
+
+    def usual(line: Line, i: int) -> bool:
+        return line.usual is not None and formulas.get(line.place(i)) is line.usual
+
+    if depth.usual is not None and depth.computed:
+        first = next(n for n, i in enumerate(indices) if usual(depth, i))
+        last = max(n for n, i in enumerate(indices) if usual(depth, i) or usual(speed, i))
+        start = first
+        while start and first - start < 2 and indices[start] - indices[start - 1] <= 2:
+            start -= 1
+        return indices[start : last + 1]
+    blocks: list[list[int]] = [[]]
+    for i in indices:
+        if blocks[-1] and i - blocks[-1][-1] > 2:
+            blocks.append([])
+        blocks[-1].append(i)
+    return max(blocks, key=len)
+
+
+def _first_row(
+    depth: Line, speed: Line, role: str, indices: Sequence[int], c: float
+) -> tuple[int, bool]:
+    """The number of the first row shown, and whether the table begins at the impact."""
+    x = depth.values.get(indices[0])
+    v = speed.values.get(indices[0], speed.values.get(indices[1], 0.0))
+    step = abs(c * v)
+    if x is None or not step:
+        return 0, True
+    if abs(x) < 0.25 * step:
+        return 0, True
+    if abs(x) < 1.6 * step and role == "velocity_initial":
+        return 1, True
+    if abs(x) < 1.6 * step:
+        return 1, True
+    return 0, False
+
+
+def _brake(
+    falls: Sequence[tuple[int, float, float]], others: Sequence[Line], c: float, speed: Line,
+    strict: bool = False,
+) -> Line | None:  # fmt: skip
+    """The line of decelerations: the velocity falls by it times the constant of the depth.
+
+    Forces and changes of velocity fall with it, too, but by other constants; `strict` takes no
+    line with another constant than a power of ten times `c`.
+    """
+    ranked = []
+    for line in others:
+        if _is_constant(line):
+            continue
+        terms = [
+            (fall, line.values[i], rounding + abs(fall) * line.rounding(line.values[i])
+             / abs(line.values[i]))
+            for i, fall, rounding in falls
+            if line.values.get(i)
+        ]  # fmt: skip
+        e, share = _share(terms, _EXACT)
+        if share <= 0.5 or not e:
+            e, share = _share(terms, 1e-3) if not line.computed else (e, 0.0)
+        if share <= 0.5:
+            continue
+        fits = power_of_ten(abs(e) / c) is not None or (
+            not line.computed and abs(math.log10(abs(e) / c) - round(math.log10(abs(e) / c))) < 0.01
+        )
+        named = "deceleration" in line.roles
+        other = bool(line.roles) and not named
+        ranked.append((not fits, not named, other, not _reads(speed, line), line.number, line))
+    ranked.sort(key=lambda entry: entry[:-1])
+    if strict:
+        return ranked[0][-1] if ranked and not ranked[0][0] else None
+    if not ranked or (ranked[0][0] and ranked[0][1]):
+        near = [entry for entry in ranked if not entry[2] and not entry[3]]
+        return near[0][-1] if near and ranked[0][0] and not _is_product(near[0][-1]) else None
+    return ranked[0][-1]
+
+
+def _is_product(line: Line) -> bool:
+    """Whether a line is one other line times something: a change of velocity, say."""
+    shape = line.usual
+    return shape is not None and len(shape.references) <= 2 and len(shape.key) < 40
+
+
+def _time(others: Sequence[Line], c: float, near: int, taken: set[Line]) -> Line | None:
+    """The line of times: it grows by the same constant, up to its unit."""
+    ranked = []
+    for line in others:
+        if line in taken:
+            continue
+        steps = [line.values[j] - line.values[i] for i, j in _pairs(line)]
+        step = median(steps)
+        close = 1e-9 * abs(step) + 3 * max(map(line.rounding, line.values.values()))
+        even = sum(abs(s - step) <= close for s in steps) > 0.5 * len(steps)
+        if not even or step <= 0:
+            continue
+        fits = abs(math.log10(step / c) - round(math.log10(step / c))) < 1e-6
+        named = "time" in line.roles
+        whole = all(value == int(value) for value in line.values.values())
+        if whole and step == 1 and not fits and line.unit is None:
+            continue  # it counts the rows, whatever its head
+        if named or (fits and not whole):
+            ranked.append((not named, not fits, abs(line.number - near), line))
+    ranked.sort(key=lambda entry: entry[:-1])
+    return ranked[0][-1] if ranked else None
+
+
+def _best(depths: Iterable[tuple[Line, float]]) -> Line | None:
+    """The line with the largest share of rows that fit, if more than half of them do."""
+    ranked = [(share, line) for line, share in depths if share > 0.5]
+    return max(ranked, key=lambda entry: entry[0])[1] if ranked else None
+
+
+def _given(evaluator: Evaluator, given: Mapping[str, Line], beside: Sequence[Line]) -> Table | None:
+    """The table of lines that the user named; the others are found as usual."""
+    roles = {("velocity_initial" if r == "velocity" else r): o for r, o in given.items()}
+    if "depth" not in roles:
+        depth = _best(
+            (o, max(grows_by(o, r, lag)[1] for lag in (0, 1)))
+            for o in beside if o.grows for r in roles.values()
+        )  # fmt: skip
+        if depth is None:
+            return None
+        roles["depth"] = depth
+    if not roles.keys() & {"velocity_initial", "velocity_final"}:
+        speed = _best((o, grows_by(roles["depth"], o, 0)[1]) for o in beside)
+        if speed is None:
+            return None
+        roles["velocity_initial"] = speed
+    if "velocity_final" not in roles:
+        roles |= _other_velocity(roles, "velocity" in given, beside)
+        if roles["velocity_initial"] is roles.get("velocity_final"):
+            del roles["velocity_initial"]
+    c = _step_of(roles)
+    return _completed(evaluator, roles, list(beside), c) if c else None
+
+
+def _other_velocity(
+    roles: Mapping[str, Line], is_either: bool, beside: Sequence[Line]
+) -> dict[str, Line]:
+    """The velocities of both ends of the rows, where the user named one; `is_either`: of any end.
+
+    If there is only one line for both, it is at the end.
+    """
+    speed, depth = roles["velocity_initial"], roles["depth"]
+    starts = [o for o in beside if repeats(o, speed) > 0.5]
+    if is_either and starts:
+        return {"velocity_initial": starts[0], "velocity_final": speed}
+    ends = [o for o in beside if repeats(speed, o) > 0.5]
+    lag = grows_by(depth, speed, 1)[1] > grows_by(depth, speed, 0)[1]
+    if is_either and lag and _is_ahead(speed, depth):
+        return {"velocity_final": speed}
+    return {"velocity_final": ends[0]} if ends else {}
+
+
+def _step_of(roles: Mapping[str, Line]) -> float:
+    """The constant by which the depth grows with the velocity; 0 if none can be told."""
+    depth = roles["depth"]
+    speed = roles.get("velocity_initial") or roles["velocity_final"]
+    c, _ = grows_by(depth, speed, int("velocity_initial" not in roles), _LOOSE)
+    if c:
+        return c
+    steps = [
+        (depth.values[j] - depth.values[i]) / speed.values[j]
+        for i, j in _pairs(depth)
+        if speed.values.get(j)
+    ]
+    return abs(median(steps)) if steps else 0.0
+
+
+def with_given(line: Line, name: str) -> Line:
+    """The line as the user named it."""
+    return replace(line, given=name)

@@ -15,7 +15,7 @@ from fractions import Fraction
 from functools import cache
 from importlib import resources
 
-from reference.units import UnitError, same_dimension, to_si
+from reference.units import is_known, same_dimension, to_si
 from replication.text import with_unit
 
 _WORDS: dict[str, dict[str, str]] = tomllib.loads(
@@ -53,11 +53,8 @@ def is_unit(text: str) -> str | None:
     text = re.sub("[μµ]", "u", text).replace("·", "*").replace("pa", "Pa")
     text = re.sub(r"\bsec\b", "s", text)
     text = re.sub(r"\bmils\b", "mil", text)
-    try:
-        to_si(text := "1" if text in ("-", "–", "—") else text)
-    except UnitError:
-        return None
-    return text
+    text = "1" if text in ("-", "–", "—") else text
+    return text if is_known(text) else None
 
 
 @cache

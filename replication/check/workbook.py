@@ -1,21 +1,20 @@
 """Check a whole workbook against the report's sheet: every table, and what stands beside them."""
 
-import math
-import sys
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from fractions import Fraction
-from itertools import dropwhile, product
 from pathlib import Path
+from typing import Any
 
-from reference.ledger import Claim, load
-from reference.units import same_dimension, to_si
-from replication.check.examination import NO_FAULT, Difference, Examination, near
-from replication.check.inputs import find, label_of, numbers_beside, read_by, report_inputs
-from replication.check.judge import judge
-from replication.check.results import has_input, misread
-from replication.check.table import LEAST, Line, Result, address, lines, runs, tables
-from replication.check.twins import meant
+from reference.units import same_dimension
+from replication.check.examination import NO_FAULT, Difference, Examination
+from replication.check.judge import examine
+from replication.check.labels import cell_names, label_of
+from replication.check.model import AnotherModelError
+from replication.check.repair import Slipped, Still, mended, moving, slipped, standing
+from replication.check.results import PrintedCell, judge_results, printed_cells
+from replication.check.stale import stale
+from replication.check.table import LEAST, Line, Table, address, runs, tables
 from replication.check.words import (
     COLUMNS,
     INPUTS,
@@ -23,48 +22,33 @@ from replication.check.words import (
     count,
     input_roles,
     is_unit,
-    number_in,
     share,
 )
 from replication.reading import place as named
 from replication.reading import quoted
-from replication.text import with_unit
-from spreadsheets.foreign import Position, read
-from spreadsheets.recalculation import Area, Calculation, calculate, parse
+from spreadsheets.evaluate import Area, Error, Evaluator, Shape, parse, shape_key
+from spreadsheets.foreign import Book, Position, read
 
-_STALE = 1e-14
-"""Relative deviation above which a stored value is stale: LibreOffice saves 15 digits."""
-
-
-@dataclass(frozen=True)
-class PrintedCell:
-    """A cell with a number that the report prints; `found` is its value in the claim's unit."""
-
-    claim: Claim
-    place: Position
-    found: float
-    met: bool
-
-    def unmet(self, exam: Examination) -> Difference:
-        """Return the difference for a number that is not as printed."""
-        claim, rank = self.claim, (3, *exam.rank(self.place))
-        printed, interval = (
-            with_unit(str(text), claim.unit) for text in (claim.shown, claim.interval())
-        )
-        text = f"the report prints {printed} for {claim.title} ({claim.place}), "
-        text += f"which stands for values in {interval}"
-        value = exam.calculation.number(self.place)
-        return Difference("printed number", (self.place,), printed, value, text, rank)
+_MOST_TABLES = 40
+"""So many tables of one workbook are judged."""
+_FEW_READ = 100
+"""So many cells behind an error are looked at for a text."""
+_FEW = 3
+"""Where all formulas store 0, so few wrong values are stale; more were never calculated."""
 
 
 @dataclass(frozen=True)
 class Check:
-    """The result of `coldspray check` for a workbook."""
+    """The result of `coldspray check` for a workbook.
 
-    calculation: Calculation
+    `others` says for each table of another model beside those of the report's why it is one.
+    """
+
+    evaluator: Evaluator
     examinations: tuple[Examination, ...]
     differences: tuple[Difference, ...]
     numbers: tuple[PrintedCell, ...]
+    others: tuple[str, ...] = ()
 
     @property
     def faults(self) -> list[Difference]:
@@ -78,55 +62,286 @@ class Check:
 
     @property
     def first(self) -> Difference | None:
-        """The first fault in order of calculation; one of last digits only if there is no other."""
-        faults = self.causes or self.faults
-        return min(faults, key=lambda d: (d.kind == "operation order", d.rank), default=None)
+        """The first fault in order of calculation."""
+        return min(self.causes or self.faults, key=lambda d: d.rank, default=None)
+
+    def record(self) -> dict[str, Any]:
+        """The document of `coldspray check --json`."""
+        from replication.check.show import check_record
+
+        return check_record(self)
 
 
-def check(path: Path, mapping: Mapping[str, str] | None = None) -> Check:
+def check(path: Path, given: Mapping[str, str] | None = None) -> Check:
     """Check somebody's workbook of the scheme.
 
-    `mapping` gives the ranges of columns and inputs that cannot be recognized, by name. Raises
+    `given` has the ranges of columns and inputs that cannot be recognized, by name. Raises
     WorkbookError for a file that cannot be read; ValueError, saying what would help, if there is no
-    table of the scheme or if it is not clear what a cell is.
+    table of the scheme or if all tables follow another model.
     """
-    calculation = calculate(read(path))
-    given, cells = _mapped(mapping or {}, calculation)
+    book = read(path)
     with named(str(path)):
-        read_tables = tables(calculation, given)
-        if not read_tables:
-            raise ValueError(_nothing(calculation))
-        beside = list(numbers_beside(calculation, read_tables))
-        reads = [read_by(table.places, calculation) for table in read_tables]
-        examinations = [
-            find(table, beside, cells, reads[n], set().union(*reads[:n], *reads[n + 1 :]))
-            for n, table in enumerate(read_tables)
-        ]
-    repeating = meant(examinations, beside)
-    for number, exam in enumerate(examinations):
-        judge(exam, repeating.get(number))
-    misread(examinations)
-    sheets = [exam.table.sheet for exam in examinations]
-    # Several tables may share the cell of an input or a result.
-    every = (number for exam in examinations for number in _printed_cells(exam, sheets))
-    numbers = {(number.claim.id, number.place): number for number in every}.values()
-    beside_tables = [
-        *_stale(calculation, examinations),
-        *(number.unmet(examinations[0]) for number in numbers if not number.met),
-        *_uncalculated(calculation),
-        *_without_numbers(calculation, examinations[0]),
+        return check_book(book, given or {})
+
+
+def check_book(book: Book, given: Mapping[str, str]) -> Check:
+    """Check a book that was read; see `check`."""
+    evaluator, texts = _evaluated(book)
+    lost = list(slipped(evaluator))
+    if lost:
+        book = mended(evaluator.book, lost)
+        evaluator, texts = _evaluated(_without_values(book))
+    columns, cells = _mapped(given, evaluator)
+    found = tables(evaluator, columns)[:_MOST_TABLES]
+    still = None
+    if not found and not given:
+        evaluator, texts, found, still = _set_moving(evaluator, texts)
+    if not found:
+        raise ValueError(_nothing(evaluator))
+    names = cell_names(evaluator)
+    idle = _idle(evaluator, found)
+    exams: list[Examination] = []
+    others: list[str] = []
+    for table in found:
+        try:
+            exams.append(
+                examine(
+                    table, names, cells, _beside(table, idle, found), _typed_numbers(table, found)
+                )
+            )
+        except AnotherModelError as error:
+            others.append(str(error))
+    if not exams:
+        raise ValueError(others[0])
+    judge_results(exams, evaluator)
+    for slip in lost:
+        _tell_lost(exams, slip)
+    if still is not None:
+        _tell_still(exams, still)
+    return _collected(evaluator, exams, texts, others)
+
+
+def _set_moving(
+    evaluator: Evaluator, texts: dict[Position, str]
+) -> tuple[Evaluator, dict[Position, str], list[Table], Still | None]:
+    """The workbook with a cell filled without which no row moves, its tables, and the cell."""
+    for still in standing(evaluator):
+        book = _without_values(moving(evaluator.book, still))
+        trial, again = _evaluated(book)
+        if (found := tables(trial, {})[:_MOST_TABLES]) and any(
+            still.place in table.places for table in found
+        ):
+            return trial, again, found, still
+    return evaluator, texts, [], None
+
+
+def _tell_still(exams: Sequence[Examination], still: Still) -> None:
+    """Report the cell without which no row moves."""
+    for exam in exams:
+        if still.place in exam.table.places:
+            blank = still.found is None
+            kind = "odd formula" if blank else "typed number"
+            what = "the cell is blank" if blank else "a zero is typed here"
+            text = f"{what}: no row moves; checked as if {still.formula} stood here"
+            cells, rank = (still.place,), exam.rank(still.place)
+            exam.ends = False  # its depths are those that were meant
+            exam.differences.append(Difference(kind, cells, still.formula, still.found, text, rank))
+            return
+
+
+def _without_values(book: Book) -> Book:
+    """The book without the stored values of its formulas, which follow from what is mended."""
+    return replace(
+        book,
+        sheets={
+            name: {
+                at: c._replace(value=None, error=False) if c.formula else c
+                for at, c in cells.items()
+            }
+            for name, cells in book.sheets.items()
+        },
+    )
+
+
+def _tell_lost(exams: Sequence[Examination], slip: Slipped) -> None:
+    """Report a reference that lacks its $, if a table rests on the cells."""
+    for exam in exams:
+        lined = set(exam.table.places)
+        for line in exam.table.helpers:
+            lined |= {line.place(i) for i in line.values}
+        if slip.cells[0] in lined or slip.cells[-1] in lined:
+            meant = address(slip.meant, slip.meant[0] != slip.cells[0][0])
+            text = f"the reference to {meant} lacks its $: it slips away from that cell, row by row"
+            expected = slip.formulas[slip.cells[0]]
+            exam.add("odd formula", slip.cells, expected, text)
+            exam.ends = False  # its depths are those that were meant
+            return
+
+
+def _collected(
+    evaluator: Evaluator, exams: Sequence[Examination], texts: Mapping[Position, str],
+    others: Sequence[str],
+) -> Check:  # fmt: skip
+    numbers = {(n.claim.id, n.place): n for n in printed_cells(exams, evaluator)}.values()
+    beside = [
+        *_texts(evaluator, exams, texts),
+        *_stale(evaluator, exams),
+        *(
+            n.unmet(exams[0])
+            for n in numbers
+            if not n.met and (n.typed or not _faulty(exams, n.place))
+        ),
+        *_uncalculated(evaluator),
+        *_without_numbers(evaluator),
     ]
-    # Tables side by side may report the same cell, so only the first of them does. All inputs that
-    # no cell holds are placed at the table's first cell; their explanations tell them apart.
-    reported: set[tuple[Position, str, str]] = set()
+    # Tables may share the cell of an input or a result: only the first of them reports it.
+    reported: set[tuple[Position, str]] = set()
     once: list[Difference] = []
-    for group in (*(exam.differences for exam in examinations), beside_tables):
-        keys = [(d.place, d.kind, d.explanation if d.kind == "other input" else "") for d in group]
-        once += [d for d, key in zip(group, keys, strict=True) if key not in reported]
-        reported.update(keys)
-    once.reverse()  # among equal ranks, differences beside the tables come first
+    for group in (*(exam.differences for exam in exams), beside):
+        once += [d for d in group if (d.place, d.kind) not in reported]
+        reported.update((d.place, d.kind) for d in group)
     ordered = tuple(sorted(once, key=lambda d: d.rank))
-    return Check(calculation, tuple(examinations), ordered, tuple(numbers))
+    return Check(evaluator, tuple(exams), ordered, tuple(numbers), tuple(others))
+
+
+def _faulty(exams: Sequence[Examination], place: Position) -> bool:
+    """Whether the table that a final depth ends has faults, from which it follows."""
+    return any(
+        d.kind not in NO_FAULT for exam in exams if place in exam.table.places
+        for d in exam.differences
+    )  # fmt: skip
+
+
+# ---- evaluation, and numbers stored as texts
+
+
+def _evaluated(book: Book) -> tuple[Evaluator, dict[Position, str]]:
+    """The book evaluated, with the typed texts that formulas take for numbers."""
+    evaluator = Evaluator(_without_zeros(book))
+    read = {
+        (a.sheet, a.top, a.left) for p in evaluator.formulas for a in evaluator.areas(p)
+        if a.cells == 1
+    }  # fmt: skip
+    texts = {
+        place: value
+        for place in read - evaluator.formulas.keys()
+        if isinstance(value := evaluator.values.get(place), str) and _numbers_in(value)
+    }
+    if not texts:
+        return evaluator, {}
+    taken: dict[Position, float] = {}
+    for place, text in sorted(texts.items()):
+        trials = []
+        for number in _numbers_in(text):
+            trial = Evaluator(evaluator.book, {**taken, place: number})
+            off = sum(1 for p in trial.formulas if not _near_stored(trial, p))
+            trials.append((off + len(trial.reasons), number))
+        taken[place] = min(trials)[1]
+    return Evaluator(evaluator.book, taken), texts
+
+
+def _near_stored(evaluator: Evaluator, place: Position) -> bool:
+    stored, value = evaluator.book[place].value, evaluator.values.get(place)
+    if type(stored) is float and type(value) is float:
+        return abs(stored - value) <= 1e-9 * abs(value)
+    return True
+
+
+_SPACES = re.compile(r"(?<=\d)[ \u00a0\u202f](?=\d{3})")
+
+
+def _numbers_in(text: str) -> list[float]:
+    """The numbers that a text may stand for, with a decimal comma or marks of thousands.
+
+    >>> _numbers_in("7 850"), _numbers_in("1,1E-5"), _numbers_in("8,900"), _numbers_in("R")
+    ([7850.0], [1.1e-05], [8900.0, 8.9], [])
+    """
+    plain = _SPACES.sub("", text.strip())
+    number = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?")
+    candidates = [plain] if "," not in plain else []
+    if re.fullmatch(r"[-+]?\d{1,3}(,\d{3})+(\.\d+)?", plain):
+        candidates.append(plain.replace(",", ""))
+    if plain.count(",") == 1 and "." not in plain:
+        candidates.append(plain.replace(",", "."))
+    return [float(each) for each in candidates if number.fullmatch(each)]
+
+
+def _without_zeros(book: Book) -> Book:
+    """The book without stored values, if its program stored 0 for every formula; else unchanged."""
+    formulas = [cell for _, cell in book.cells() if cell.formula is not None]
+    if len(formulas) <= _FEW or not all(type(c.value) is float and c.value == 0 for c in formulas):
+        return book
+    note = "every formula stores 0, as some programs write it: none is calculated"
+    sheets = {
+        sheet: {at: c._replace(value=None) if c.formula else c for at, c in cells.items()}
+        for sheet, cells in book.sheets.items()
+    }
+    return replace(book, sheets=sheets, notes=(*book.notes, note))
+
+
+def _texts(
+    evaluator: Evaluator, exams: Sequence[Examination], texts: Mapping[Position, str]
+) -> Iterator[Difference]:
+    """Report numbers that are stored as texts in cells that the tables read."""
+    read = set().union(*(exam.read for exam in exams), *(exam.table.places for exam in exams))
+    for place, text in sorted(texts.items()):
+        if place in read or any(e.place == place for exam in exams for e in exam.inputs.values()):
+            says = "a number stored as text: not every program calculates with it"
+            value = evaluator.values.get(place)
+            yield Difference(
+                "typed number", (place,), value, repr(text), says, exams[0].rank(place)
+            )
+
+
+# ---- what the tables do not read
+
+
+def _idle(evaluator: Evaluator, found: Sequence[Table]) -> list[Position]:
+    """The numbers that no table holds or reads: of inputs that are not used, perhaps."""
+    lined = {p for table in found for p in table.places}
+    for table in found:
+        lined |= {line.place(i) for line in table.helpers for i in line.values}
+    read: set[Position] = set()
+    waiting = [p for p in lined if p in evaluator.formulas]
+    seen: set[Position] = set()
+    while waiting:
+        place = waiting.pop()
+        if place in seen:
+            continue
+        seen.add(place)
+        for area in evaluator.areas(place):
+            for cell in area.places() if area.cells <= 64 else ():
+                read.add(cell)
+                if cell in evaluator.formulas and cell not in lined:
+                    waiting.append(cell)
+    return [
+        place
+        for place, value in evaluator.values.items()
+        if type(value) is float and place not in lined and place not in read
+    ][:5_000]
+
+
+def _beside(table: Table, idle: Sequence[Position], found: Sequence[Table]) -> list[Position]:
+    """The idle cells that may belong to a table: typed ones, not on the sheet of another table."""
+    formulas = table.evaluator.formulas
+    own = [p for p in idle if p not in formulas]
+    if len(found) > 1:
+        others = {other.sheet for other in found} - {table.sheet}
+        own = [p for p in own if p[0] not in others]
+    return own[:500]
+
+
+def _typed_numbers(table: Table, found: Sequence[Table]) -> list[Position]:
+    """The typed numbers on the sheet of a table that stand in no table."""
+    lined = {p for other in found for p in other.places}
+    for other in found:
+        lined |= {line.place(i) for line in other.helpers for i in line.values}
+    evaluator = table.evaluator
+    return [
+        p for p, value in evaluator.values.items()
+        if type(value) is float and p[0] == table.sheet and p not in lined
+        and p not in evaluator.formulas
+    ][:500]  # fmt: skip
 
 
 # ---- the user's --map, and the message where no table is found
@@ -136,271 +351,235 @@ _LINES = ("velocity", *COLUMNS)
 
 
 def _mapped(
-    mapping: Mapping[str, str], calculation: Calculation
-) -> tuple[list[Line], dict[str, Position]]:
+    mapping: Mapping[str, str], evaluator: Evaluator
+) -> tuple[dict[str, Line], dict[str, Position]]:
     """Return the columns (or rows) and the cells that the user named."""
-    columns: list[Line] = []
+    columns: dict[str, Line] = {}
     cells: dict[str, Position] = {}
-    for given, where in mapping.items():
-        area = _area(given, where, calculation)
-        if given in INPUTS and area.cells == 1:
-            cells[given] = area.corner
-        elif given in _LINES and (area.top == area.bottom or area.left == area.right):
-            columns.append(_named_line(given, where, area, calculation))
+    for name, where in mapping.items():
+        area = _area(name, where, evaluator)
+        if name in INPUTS and area.cells == 1 and name not in columns:
+            cells[name] = (area.sheet, area.top, area.left)
+            if type(evaluator.values.get(cells[name])) is not float:
+                raise ValueError(
+                    f"--map {name}: the cell {address(cells[name], True)} holds no number"
+                )
+        elif name in _LINES and (area.top == area.bottom or area.left == area.right):
+            columns[name] = _named_line(name, where, area, evaluator)
         else:
-            wanted = "one column or one row" if given in _LINES else "one cell"
-            raise ValueError(f"--map {given}={where}: give {wanted}")
+            wanted = "one column or one row" if name in _LINES else "one cell"
+            raise ValueError(f"--map {name}={where}: give {wanted}")
     return columns, cells
 
 
-def _named_line(given: str, where: str, area: Area, calculation: Calculation) -> Line:
+def _named_line(name: str, where: str, area: Area, evaluator: Evaluator) -> Line:
     """Return the column or row that the user named. Raises ValueError if it cannot be that."""
-    across = area.top == area.bottom
-    direction = (area.sheet, across)
-    alike = (line for line in lines(calculation) if (line.sheet, line.across) == direction)
-    blank = next((line.left_out for line in alike), ())  # they all leave out the same
+    across = area.top == area.bottom and area.left != area.right
     number = area.top if across else area.left
-    line = Line(calculation, area.sheet, across, blank, number, given=given)
-    cells = [(at, calculation.number(p)) for p in area.places() if (at := line.index(p))]
-    # A whole column includes its heads, which are not meant.
-    cells = list(dropwhile(lambda cell: cell[1] is None, cells))
-    values = tuple(value for _, value in cells)
-    if sum(value is not None for value in values) < LEAST:
-        raise ValueError(f"--map {given}={where}: it holds fewer than {LEAST} numbers")
-    line = replace(line, first=cells[0][0], values=values).headed()
-    wanted = COLUMNS["velocity_initial" if given == "velocity" else given]
+    values = {
+        (p[2] if across else p[1]): value
+        for p in evaluator.used(area).places()
+        if type(value := evaluator.values.get(p)) is float
+    }
+    if len(values) < LEAST:
+        raise ValueError(f"--map {name}={where}: it holds fewer than {LEAST} numbers")
+    line = Line(evaluator, area.sheet, across, number, values, name)
+    wanted = COLUMNS["velocity_initial" if name == "velocity" else name]
     if line.unit and not same_dimension(line.unit, wanted):
         gives = f"the head of these cells gives {line.unit}"
-        raise ValueError(f"--map {given}: {gives}, a unit of something else than {wanted}")
+        raise ValueError(f"--map {name}: {gives}, a unit of something else than {wanted}")
     return line
 
 
-def _area(given: str, where: str, calculation: Calculation) -> Area:
+def _area(name: str, where: str, evaluator: Evaluator) -> Area:
     """Return the range that --map gives. Raises ValueError if there is no single one."""
-    book = calculation.book
-    if given not in (*_LINES, *INPUTS):
+    book = evaluator.book
+    if name not in (*_LINES, *INPUTS):
         known = ", ".join(dict.fromkeys([*COLUMNS, *INPUTS]))
-        raise ValueError(f"--map {given[:40]!r} is not a known name; choose one of {known}")
-    read = (parse(f"={where}", (sheet, 1, 1), book).areas for sheet in book.sheets)
-    areas = list(dict.fromkeys(named_areas[0] for named_areas in read if len(named_areas) == 1))
+        raise ValueError(f"--map {name[:40]!r} is not a known name; choose one of {known}")
+    areas: list[Area] = []
+    for sheet in book.sheets:
+        shape = parse(f"={where}", sheet, book, shape_key(f"={where}", 1, 1))
+        if len(shape.references) == 1 and not shape.literals:
+            area = shape.references[0]._replace(crossing=False).at(1, 1)
+            if area not in areas:
+                areas.append(area)
     if len(areas) > 1:  # no sheet is named: the only one with numbers there is meant
-        numbers = [place for place, value in calculation.values.items() if isinstance(value, float)]
+        numbers = [p for p, value in evaluator.values.items() if type(value) is float]
         areas = [area for area in areas if any(map(area.covers, numbers))] or areas[:1]
     if len(areas) != 1:
         what = "several sheets hold numbers there: " if areas else ""
         known = ", ".join(map(repr, list(book.sheets)[:8]))
         such = "give a range such as Sheet1!D8:D139; the sheets are"
-        raise ValueError(f"--map {given}={where[:60]}: {what}{such} {known}")
-    rows, _ = book.size[areas[0].sheet]
-    return areas[0]._replace(bottom=min(areas[0].bottom, max(rows, areas[0].top)))
+        raise ValueError(f"--map {name}={where[:60]}: {what}{such} {known}")
+    return areas[0]
 
 
-def _nothing(calculation: Calculation) -> str:
+def _nothing(evaluator: Evaluator) -> str:
     """Return the message that there is no table, with the likely reason and what to do."""
-    nothing, values = "no table of depth and velocity is found", calculation.values
-    texts = (value for value in values.values() if isinstance(value, str))
-    typed = sum(any(map(str.isdigit, text)) and not any(map(str.isalpha, text)) for text in texts)
-    if typed > max(100, len(calculation.formulas)):
+    nothing, values = "no table of depth and velocity is found", evaluator.values
+    texts = [value for value in values.values() if type(value) is str]
+    typed = sum(any(map(str.isdigit, t)) and not any(map(str.isalpha, t)) for t in texts)
+    if typed > max(100, len(evaluator.formulas)):
         return f"{nothing}; {typed:,} cells hold numbers as text: convert them to numbers"
-    wrong = [place for place in calculation.formulas if calculation.error(place)]
-    first = min(wrong, key=calculation.order.__getitem__, default=None)
-    spoiling = set(map(calculation.source, calculation.corners(first)))
-    instead = sorted(_labelled_texts(calculation) | (spoiling & calculation.spoiling))
+    wrong = [
+        p for p in evaluator.formulas if isinstance(values.get(p), Error) and values[p] != "#N/A"
+    ]
+    first = min(wrong, key=lambda p: evaluator.order.get(p, 0), default=None)
+    instead = sorted(_labelled_texts(evaluator) | _spoiling(evaluator, first))
     for place in instead:
         nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
-    uncomputed = sorted(calculation.unknown & calculation.uncomputed.keys())[:1]
-    for place in uncomputed:
-        nothing += f"; {address(place, True)} is not computed: {calculation.uncomputed[place]}"
+    for place in _labelled_blanks(evaluator):
+        nothing += f"; {address(place, True)} is blank, though formulas read it"
+    for place in sorted(evaluator.unknown)[:1]:
+        nothing += f"; {address(place, True)} is not computed: {evaluator.reasons[place]}"
     if first:
         errors = f"errors in {count(len(wrong), 'formula')}, {address(first, True)} first"
-        return f"{nothing}; {errors}: {calculation.error(first)}"
+        return f"{nothing}; {errors}: {values[first]}"
     if instead:
         return f"{nothing}: type a number there"
-    if uncomputed:
+    if evaluator.unknown:
         return f"{nothing}: correct it, or save the workbook with a program that computes it"
     such = "--map depth=Sheet1!D8:D139 --map velocity=Sheet1!C8:C139"
-    return f"{nothing}: say where they are, such as {such}"
+    return f"{nothing}: if there is one, say where, as with {such}"
 
 
-def _labelled_texts(calculation: Calculation) -> set[Position]:
-    """Return the typed texts that formulas read and whose labels name an input.
-
-    Formulas may guard themselves against texts and give no error; then only the label tells.
-    """
-    formulas, values = calculation.formulas, calculation.values
-    read = {area.corner for formula in formulas.values() for area in formula.areas}
-    return {
-        place
-        for place in read - formulas.keys()
-        if isinstance(text := values.get(place), str) and not is_unit(text)
-        if input_roles(*label_of(place, calculation))
-    }
+def _spoiling(evaluator: Evaluator, first: Position | None) -> set[Position]:
+    """Return the typed texts that make the first formula with an error give it."""
+    read = list(evaluator.precedents(first)) if first else []
+    typed = set[Position]()
+    for place in read:  # which grows by what formulas that repeat a text read
+        if type(evaluator.values.get(place)) is str:
+            if place not in evaluator.formulas:
+                typed.add(place)
+            elif len(read) < _FEW_READ:
+                read += evaluator.precedents(place)
+    return typed
 
 
-def _without_numbers(calculation: Calculation, exam: Examination) -> Iterator[Difference]:
+def _labelled_texts(evaluator: Evaluator) -> set[Position]:
+    """Return the typed texts that formulas read and whose labels name an input."""
+    read = {
+        (a.sheet, a.top, a.left) for p in evaluator.formulas for a in evaluator.areas(p)
+        if a.cells == 1
+    }  # fmt: skip
+    found = set()
+    for place in read - evaluator.formulas.keys():
+        text = evaluator.values.get(place)
+        if type(text) is str and not is_unit(text):
+            label, unit, _ = label_of(place, evaluator)
+            if label and label != text and input_roles(label, unit):
+                found.add(place)
+    return found
+
+
+def _texts_for_numbers(evaluator: Evaluator) -> set[Position]:
+    """Return the typed texts that give a formula an error, where its like read numbers."""
+    alike: dict[Shape, list[Position]] = {}
+    for place, shape in evaluator.formulas.items():
+        alike.setdefault(shape, []).append(place)
+    values, typed = evaluator.values, set[Position]()
+    for shape, cells in alike.items():
+        good = [place for place in cells if type(values.get(place)) is float]
+        wrong = [place for place in cells if isinstance(values.get(place), Error)]
+        for ref in shape.references if good and wrong else ():
+            read = [ref.at(*place[1:]).corner for place in good]
+            if all(type(values.get(cell)) is float for cell in read):
+                texts = (ref.at(*place[1:]).corner for place in wrong)
+                typed |= {cell for cell in texts if type(values.get(cell)) is str}
+    return typed - evaluator.formulas.keys()
+
+
+def _labelled_blanks(evaluator: Evaluator) -> list[Position]:
+    """Return the blank cells that formulas read and whose labels name an input."""
+    read = {
+        (a.sheet, a.top, a.left) for p in evaluator.formulas for a in evaluator.areas(p)
+        if a.cells == 1
+    }  # fmt: skip
+    blank = []
+    for place in sorted(read - evaluator.formulas.keys()):
+        if evaluator.values.get(place) is None:
+            label, unit, _ = label_of(place, evaluator)
+            if label and input_roles(label, unit):
+                blank.append(place)
+    return blank[:_FEW]
+
+
+def _without_numbers(evaluator: Evaluator) -> Iterator[Difference]:
     """Report each sheet where the formulas below the head of a depth give no numbers.
 
-    Report, too, the texts in cells of inputs, one of which such formulas may read; `exam` is any
-    table, by which they are ranked.
+    Report, too, the texts in cells of inputs, one of which such formulas may read.
     """
     silent: dict[str, Difference] = {}
-    for (sheet, row, column), text in calculation.values.items():
-        if isinstance(text, str) and not is_unit(text) and column_roles(text) == {"depth"}:
-            below = ((sheet, row + k, column) for k in range(1, 3 * LEAST))
-            cells = [place for place in below if place in calculation.formulas]
-            if len(cells) > LEAST and {*map(calculation.number, cells)} == {None}:
-                error = calculation.error(cells[0])
+    for (sheet, row, column), text in evaluator.values.items():
+        if type(text) is str and not is_unit(text) and column_roles(text) == {"depth"}:
+            below = [(sheet, row + k, column) for k in range(1, 3 * LEAST)]
+            cells = [place for place in below if place in evaluator.formulas]
+            numbers = [place for place in cells if type(evaluator.values.get(place)) is float]
+            if len(cells) > LEAST and not numbers:
+                value = evaluator.values.get(cells[0])
                 kind, says = "not calculated", f"below {quoted(text)} no formula gives a number"
-                if error == "#VALUE!":  # a text stands where a number should be
-                    kind, says = "odd formula", f"below {quoted(text)} formulas give {error}"
+                if value == "#VALUE!":  # a text stands where a number should be
+                    kind, says = "odd formula", f"below {quoted(text)} formulas give {value}"
                 says += ": no table is found there"
-                difference = Difference(kind, (cells[0],), None, error, says, (8,))
-                silent.setdefault(sheet, difference)
-    for place in sorted(_labelled_texts(calculation)) if silent else ():
+                found = str(value) if isinstance(value, Error) else None
+                silent.setdefault(sheet, Difference(kind, (cells[0],), None, found, says, (8.0,)))
+    for place in (
+        sorted(_labelled_texts(evaluator) | _texts_for_numbers(evaluator)) if silent else ()
+    ):
         says = "it is a text, not a number: nothing that reads it can be checked"
-        shown = repr(calculation.values[place])
-        yield Difference("typed number", (place,), None, shown, says, exam.rank(place))
+        shown = repr(evaluator.values[place])
+        # It comes before all faults of what reads it.
+        yield Difference("typed number", (place,), None, shown, says, (-1.0,))
     yield from silent.values()
-
-
-# ---- the report's printed numbers
-
-_HEADER = {
-    "radius": "a1-radius", "particle_density": "a1-density", "mass": "a1-mass",
-    "diameter": "a1-diameter", "velocity": "a1-initial-velocity", "resistance": "a1-resistance",
-}  # fmt: skip
-_CASES = ("beta-5", "beta-3")
-"""The cases as ids of claims name them, in the order of `report_inputs`; Table A-1 is the first."""
-_GREATEST = Fraction(sys.float_info.max)
-
-
-def _printed_cells(exam: Examination, sheets: Sequence[str]) -> Iterator[PrintedCell]:
-    """Yield the numbers of the report that a table holds, if it is one of the report's cases.
-
-    `sheets` are those of all tables. Labelled results belong to the only table, or to the only one
-    on their sheet.
-    """
-    report = report_inputs()
-    # With other inputs than the report's no number can be as printed.
-    impact = load().groups["impact"].keys() & exam.inputs.keys()
-    given = [(exam.inputs[role].si, report[role][0]) for role in impact]
-    alike = [near(exam.case.resistance, resistance) for resistance in report["resistance"]]
-    if not any(alike) or not all(near(*pair) for pair in given):
-        return
-    case = _CASES[alike.index(True)]
-    table_a1 = case == _CASES[0]
-    for role, name in _HEADER.items():
-        entry = exam.derived.get(role) or exam.inputs.get(role)
-        value = exam.calculation.number(entry.place) if entry else None
-        if entry and entry.place and value is not None and (table_a1 or role != "resistance"):
-            yield _judged(name, entry.place, Fraction(value) * entry.factor)
-    printed_rows = range(len(load().time_steps.rows) + 1)  # the impact among them
-    for k, (role, column) in product(printed_rows if table_a1 else (), exam.rows.columns.items()):
-        name = f"a1-{role.replace('_', '-')}-{k}"
-        if name in load().claims and k in column:
-            yield _judged(name, exam.table.place(role, k), Fraction(column[k]))
-    sheet = exam.table.sheet if sheets.count(exam.table.sheet) == 1 else None
-    results = [
-        result
-        for result in exam.table.results
-        if len(sheets) == 1 or (result.place[0] == sheet and _is_own(exam, result))
-    ]
-    yield from _results(exam, case, results)
-
-
-def _results(exam: Examination, case: str, results: Sequence[Result]) -> Iterator[PrintedCell]:
-    """Yield the final depth, from labelled cells or else from the last row, and the ratios X/R."""
-    last, depth = exam.table.place("depth", exam.table.steps), exam.final_depth
-    if exam.ends and depth is not None and all(result.kind != "depth" for result in results):
-        yield _judged(f"depth-{case}", last, Fraction(depth))
-    for kind, place, unit in (result[:3] for result in results if result.where == "first"):
-        value = exam.calculation.number(place) or 0.0
-        if place in exam.calculation.unknown or (
-            not exam.ends and place in exam.calculation.formulas
-        ):
-            continue  # the formulas do not give the final depth yet, or nothing at all
-        if kind == "ratio" and not exam.table.gives_depth(place) and _is_another_ratio(exam, place):
-            continue
-        if kind == "ratio" or unit:
-            yield _judged(f"{kind}-{case}", place, Fraction(value) * to_si(unit or "1"))
-        elif depth and value:
-            power = 3 * round(math.log10(abs(depth / value)) / 3)  # its unit is not known
-            yield _judged(f"depth-{case}", place, Fraction(value) * Fraction(10) ** power)
-
-
-def _is_own(exam: Examination, result: Result) -> bool:
-    """Whether a result on a table's sheet is neither labelled nor computed as another table's."""
-    role, number = number_in(str(exam.calculation.values[result.label]))
-    of_table = result.place not in exam.calculation.formulas or exam.table.gives_depth(result.place)
-    return of_table and (role is None or has_input(exam, role, number))
-
-
-def _is_another_ratio(exam: Examination, place: Position) -> bool:
-    """Whether an X/R that does not follow from the table may be another one of the report."""
-    value = Fraction(exam.calculation.number(place) or 0.0)
-    numbers = (claim for claim in load().claims.values() if claim.printed and claim.unit == "1")
-    printed = (claim.target() for claim in numbers if "X/R" in claim.title)
-    return place in exam.calculation.formulas or any(each.contains(value) for each in printed)
-
-
-def _judged(name: str, place: Position, value: Fraction) -> PrintedCell:
-    """Compare a value in SI units with the claim of this name."""
-    claim = load().claims[name]
-    # In the claim's unit a number may exceed the range of doubles.
-    shown = max(-_GREATEST, min(value / claim.si, _GREATEST))
-    return PrintedCell(claim, place, float(shown), claim.target().contains(value))
 
 
 # ---- stored values
 
 
-def _stale(calculation: Calculation, examinations: Sequence[Examination]) -> Iterator[Difference]:
-    """Report stored values that differ from what their formulas give.
-
-    In a column the deviation is compared with the largest number: what is left of 500 m/s at the
-    end carries the rounding of 500 m/s, and so does a cell that reads it.
-    """
-    tables = [exam.table for exam in examinations]
-    columns = [line for table in tables for line in table.every_line]
-
-    def is_stale(place: Position) -> bool:
-        stored, value = calculation.book[place].value, calculation.values.get(place)
-        if place in calculation.uncomputed or stored is None or stored == value:
-            return False
-        if not (isinstance(stored, float) and isinstance(value, float)):
-            return not (calculation.book[place].error and calculation.error(place))
-        off = abs(stored - value)
-        if off <= max(calculation.book.resolution, _STALE * abs(value)):
-            return False
-        for line in columns:
-            ends = (line.place(at) for at in (line.first + 1, line.last))
-            read = any(area.covers(end) for end in ends for area in calculation.areas(place))
-            if (read or line.covers(place)) and off <= _STALE * max(map(abs, line.numbers)):
-                return False
-        return True
-
-    formulas = calculation.formulas.items()
-    shapes = {place: formula.shape for place, formula in formulas if is_stale(place)}
-    for run in runs(shapes, tables[0].across):
-        stored, value = calculation.book[run[0]].value, calculation.values.get(run[0])
-        ranks = [exam.rank(run[0]) for exam in examinations]
+def _stale(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Difference]:
+    """Report stored values that differ from what their formulas give."""
+    columns = [line for exam in exams for line in exam.table.lines.values()]
+    largest = {
+        line.place(i): max(map(abs, line.values.values())) for line in columns for i in line.values
+    }
+    shapes: dict[Position, object] = {
+        place: evaluator.formulas[place]
+        for place in stale(evaluator)
+        if not _is_rounding(evaluator, place, largest.get(place, 0.0))
+    }
+    for run in runs(shapes, exams[0].table.across):
+        stored, value = evaluator.book[run[0]].value, evaluator.values.get(run[0])
+        ranks = [exam.rank(run[0]) for exam in exams]
         rank = next((r for r in ranks if r[0] < 2), ranks[0])  # in the table that it belongs to
+        stored, value = (str(x) if isinstance(x, Error) else x for x in (stored, value))
         text = "the stored value is not what the formula gives"
         yield Difference("stale value", tuple(run), value, stored, text, rank)
 
 
-def _uncalculated(calculation: Calculation) -> Iterator[Difference]:
+def _is_rounding(evaluator: Evaluator, place: Position, largest: float) -> bool:
+    """Whether a stored value is off by the rounding of the largest number of its column.
+
+    What is left of 500 m/s at the end of a column carries the rounding of 500 m/s.
+    """
+    stored, value = evaluator.book[place].value, evaluator.values.get(place)
+    if type(stored) is not float or type(value) is not float:
+        return False
+    return abs(stored - value) <= 1e-14 * largest
+
+
+def _uncalculated(evaluator: Evaluator) -> Iterator[Difference]:
     """Report formulas without a stored value, and those that this program does not compute."""
     reasons: dict[str, list[Position]] = {}
-    for place in calculation.formulas:
-        if calculation.book[place].value is None:
-            reasons.setdefault("no value is stored; they are computed here", []).append(place)
-    for place, why in calculation.uncomputed.items():
-        stored = calculation.book[place].value is not None
+    for place in evaluator.formulas:
+        if evaluator.book[place].value is None:
+            why = "no value is stored to compare with; they are computed here"
+            reasons.setdefault(why, []).append(place)
+    for place, why in evaluator.reasons.items():
+        stored = evaluator.book[place].value is not None
         taken = "their stored values are taken" if stored else "nor is a value stored"
-        reason = f"not computed here, {taken}: {why}"
-        reasons.setdefault(reason, []).append(place)
+        reasons.setdefault(f"not computed here, {taken}: {why}", []).append(place)
     for reason, places in reasons.items():
-        formula = calculation.book[places[0]].formula
-        text = f"{share(places, calculation.formulas, 'formula')}: {reason}"
-        yield Difference("not calculated", tuple(places), None, formula, text, (9,))
+        formula = evaluator.book[places[0]].formula
+        text = f"{share(places, evaluator.formulas, 'formula')}: {reason}"
+        yield Difference("not calculated", tuple(places), None, formula, text, (9.0,))

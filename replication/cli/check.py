@@ -31,8 +31,8 @@ def run(options: argparse.Namespace) -> int:
 
     checked = check(options.file, _mapping(options.map))
     record = show.check_record(checked)
-    page = partial(show.html, record, checked.differences, checked.calculation)
-    return put_differences(options, record, page, KINDS)
+    page = partial(show.html, record, checked.differences, checked.evaluator)
+    return put_differences(options, record, show.text, page, partial(show.junit, kinds=KINDS))
 
 
 def _mapping(texts: list[str]) -> dict[str, str]:

@@ -32,7 +32,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Compare two workbooks and print the differences; status 1 if there are any."""
     check_files(options, options.first, options.second)
-    from replication.check import show
+    from replication.check import diff_show as show
     from replication.check.diff import KINDS, Tolerance, diff
 
     allowed = Tolerance(options.ulp, options.relative, options.digits)
@@ -40,4 +40,4 @@ def run(options: argparse.Namespace) -> int:
     compared = diff(*both, values_only=options.values_only, allowed=allowed)
     record = show.diff_record(compared)
     page = partial(show.html, record, compared.differences, compared.after)
-    return put_differences(options, record, page, KINDS)
+    return put_differences(options, record, show.text, page, partial(show.junit, kinds=KINDS))

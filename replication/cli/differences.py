@@ -2,7 +2,7 @@
 
 import argparse
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -24,28 +24,34 @@ def add_files(parser: argparse.ArgumentParser) -> None:
 
 def check_files(options: argparse.Namespace, *workbooks: Path) -> None:
     """Raise OSError or ValueError if --html or --junit names a file that must not be written."""
-    from spreadsheets.safely import check_target
+    from spreadsheets.safely import check_own, check_target
 
-    files = [file for file in (options.html, options.junit) if file is not None]
-    written = [str(check_target(file)) for file in files]
+    marks = (
+        (options.html, b'<meta name="generator" content="coldspray '),
+        (options.junit, b'<testsuite name="coldspray '),
+    )
+    written = [str(check_target(file)) for file, _ in marks if file is not None]
     read = {os.path.realpath(file) for file in workbooks}  # unlike resolve(), no error for a loop
     if len({*written, *read}) < len(written) + len(read):
         raise ValueError("--html and --junit each need a file of their own, not one that is read")
+    for file, mark in marks:
+        if file is not None:
+            check_own(file, mark)
 
 
 def put_differences(
     options: argparse.Namespace,
     record: dict[str, Any],
+    text: Callable[[Mapping[str, Any]], str],
     page: Callable[[], str],
-    kinds: Sequence[str],
+    junit: Callable[[Mapping[str, Any]], str],
 ) -> int:
     """Write the files asked for, print the record as JSON or text, and return the exit status."""
-    from replication.check import show
     from spreadsheets.safely import write_bytes
 
     if options.html is not None:
         write_bytes(options.html, page().encode())
     if options.junit is not None:
-        write_bytes(options.junit, show.junit(record, kinds).encode())
-    put(options, record, lambda: show.text(record), quietly=True)
+        write_bytes(options.junit, junit(record).encode())
+    put(options, record, lambda: text(record), quietly=True)
     return 0 if record["clean"] else 1

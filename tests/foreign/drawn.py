@@ -1,10 +1,8 @@
 """Layouts drawn at random: their heads, units, order, places and helper columns."""
 
 import random
-import re
-import tomllib
 from dataclasses import asdict
-from pathlib import Path
+from typing import Any
 
 from foreign.layouts import (
     BRAKE,
@@ -14,7 +12,6 @@ from foreign.layouts import (
     TIME,
     Foreign,
     Table,
-    add_column,
     letters,
     place,
 )
@@ -23,8 +20,92 @@ from openpyxl.utils.cell import absolute_coordinate
 from replication.models.impact import Impact
 
 HELPERS = {"area": "A(x)", "energy": "E_kin", "n": "n"}
-TABLES = tomllib.loads(Path(__file__).with_name("drawn.toml").read_text("utf-8"))
-HEADS, UNITS, LABELS, INPUT_UNITS = TABLES.values()
+
+HEADS = {
+    "time": (
+        ("t", ""),
+        ("Time", ""),
+        ("time", "()"),
+        ("Zeit", "[]"),
+        ("temps", "()"),
+        ("t", "[]"),
+        ("t", "/"),
+        ("Zeit", ""),
+    ),
+    "velocity_initial": (
+        ("v_i", ""),
+        ("dx/dt initial", ""),
+        ("initial velocity", "()"),
+        ("Anfangsgeschwindigkeit", "[]"),
+        ("vitesse initiale", "()"),
+        ("v alt", ""),
+        ("speed at start", ","),
+        ("v_start", "[]"),
+    ),
+    "depth": (
+        ("x", ""),
+        ("depth", "()"),
+        ("Eindringtiefe", "[]"),
+        ("profondeur de pénétration", "()"),
+        ("penetration", ""),
+        ("x", "in"),
+        ("Tiefe", ""),
+        ("enfoncement", "[]"),
+    ),
+    "deceleration": (
+        ("a", ""),
+        ("d²x/dt²", ""),
+        ("deceleration", "()"),
+        ("Verzögerung", "[]"),
+        ("décélération", "()"),
+        ("Bremsung", ""),
+        ("acceleration", ""),
+        ("a", "[]"),
+    ),
+    "velocity_final": (
+        ("v_f", ""),
+        ("dx/dt final", ""),
+        ("final velocity", "()"),
+        ("Endgeschwindigkeit", "[]"),
+        ("vitesse finale", "()"),
+        ("v neu", ""),
+        ("speed at end", ","),
+        ("v_end", "[]"),
+    ),
+}
+"""Words, and how a unit follows them."""
+
+UNITS = {
+    "time": (("s", ""), ("ns", "1000000000"), ("µs", "1000000")),
+    "depth": (("m", ""), ("µm", "1000000"), ("mm", "1000"), ("nm", "1000000000")),
+    "deceleration": (("m/s²", ""), ("m/s^2", ""), ("km/s2", "0.001")),
+}
+"""Units of columns, each with the factor that brings a number in SI into it."""
+
+LABELS = {
+    "radius": ("R", "particle radius", "Radius", "rayon", "R_p", "Partikelradius"),
+    "particle_density": (
+        "density of particle",
+        "rho_p",
+        "Dichte Kupfer",
+        "masse volumique Cu",
+        "ρp",
+    ),
+    "target_density": ("density of target", "rho_t", "Dichte Stahl", "masse volumique cible", "ρt"),
+    "velocity": ("V", "impact velocity", "Auftreffgeschwindigkeit", "vitesse d'impact", "v0"),
+    "resistance": ("R_t", "target resistance", "Zielwiderstand", "résistance de la cible", "Rt"),
+    "step": ("dt", "time step", "Zeitschritt", "pas de temps", "Δt"),
+}
+
+INPUT_UNITS = {
+    "radius": (("m", ""), ("µm", "*0.000001"), ("mm", "/1000")),
+    "particle_density": (("kg/m³", ""), ("g/cm³", "*1000"), ("kg/m3", "")),
+    "target_density": (("kg/m³", ""), ("g/cm³", "*1000"), ("kg/m3", "")),
+    "velocity": (("m/s", ""), ("km/s", "*1000")),
+    "resistance": (("Pa", ""), ("GPa", "*1000000000"), ("MPa", "*1000000")),
+    "step": (("s", ""), ("ns", "/1000000000"), ("ps", "/1000000000000")),
+}
+"""Units of inputs, each with what brings its number into SI."""
 
 
 def drawn(seed: int, impact: Impact) -> Foreign:
@@ -53,33 +134,56 @@ def drawn(seed: int, impact: Impact) -> Foreign:
     units = {role: r.choice(UNITS[role]) if role in UNITS and not simple
              else UNITS.get(role, [("m/s", "")])[0] for role in order}  # fmt: skip
     first = 2 if with_units == "row" else 1
-    table = Table((left if across else top) + first, 0, f.steps, across, own=True)
+    table = Table(f, sheet, (left if across else top) + first, 0, f.steps, across)
     lines = {name: str(top + i * gap) if across else letters(left + i * gap)
              for i, name in enumerate(names)}  # fmt: skip
     for name, line in lines.items():
-        head = r.choice(HEADS[name]) if name in HEADS else HELPERS[name]
+        words, how = r.choice(HEADS[name]) if name in HEADS else (HELPERS[name], "")
         unit = units[name][0] if name in units else ""
-        if with_units != "head":
-            head = re.sub(r" \(UNIT\)| \[UNIT\]|/UNIT| in UNIT|, UNIT", "", head)
-        bracketed = f"({unit})" if "/UNIT" in head and "/" in unit else unit
-        f.cells[table.place(sheet, line, -first)] = head.replace("UNIT", bracketed)
+        f.cells[table.place(line, -first)] = (
+            _headed(words, how, unit) if with_units == "head" else words
+        )
         if with_units == "row" and unit:
-            f.cells[table.place(sheet, line, 1 - first)] = unit
-    for name, texts in _contents(lines, across, units, si, negative=r.random() < 0.2).items():
-        add_column(f, sheet, table, lines[name], "", name if name in order else "", *texts)
+            f.cells[table.place(line, 1 - first)] = unit
+    negative = r.random() < 0.2
+    for name, line in lines.items():
+        rows = [
+            _contents(
+                lines, across, units, si, own(table.zero + k), own(table.zero + k - 1), negative
+            )
+            for k, own in ((k, letters if across else str) for k in (0, 1, 2))
+        ]
+        zero, first_, rest = (row[name][min(k, len(row[name]) - 1)] for k, row in enumerate(rows))
+        table.column(line, "", name if name in order else "", zero, rest, first=first_)
     return f
+
+
+def _headed(words: str, how: str, unit: str) -> str:
+    """A head with its unit."""
+    match how:
+        case "()":
+            return f"{words} ({unit})"
+        case "[]":
+            return f"{words} [{unit}]"
+        case "/":
+            return f"{words}/({unit})" if "/" in unit else f"{words}/{unit}"
+        case "in":
+            return f"{words} in {unit}"
+        case ",":
+            return f"{words}, {unit}"
+    return words
 
 
 def _contents(
     lines: dict[str, str], across: bool, units: dict[str, tuple[str, str]], si: dict[str, str],
-    negative: bool,
-) -> dict[str, tuple[str, ...]]:  # fmt: skip
-    """The contents of each line: in row 0, in the rows that follow, and in row 1 if special."""
+    this: str, before: str, negative: bool,
+) -> dict[str, tuple[Any, ...]]:  # fmt: skip
+    """The contents of each line in a row: in row 0, in row 1, and in the rows that follow."""
 
-    def cell(name: str, row: str = "{r}") -> str:
+    def cell(name: str, row: str = this) -> str:
         return f"{row}{lines[name]}" if across else f"{lines[name]}{row}"
 
-    def inner(name: str, row: str = "{r}") -> str:
+    def inner(name: str, row: str = this) -> str:
         """A formula for the value of a cell in SI units."""
         factor = units[name][1]
         return f"{cell(name, row)}/{factor}" if factor else cell(name, row)
@@ -96,16 +200,16 @@ def _contents(
     force = f"(0.5*{si['target_density']}*{v}^2+{si['resistance']})*{contact}"
     start, energy = f"={si['velocity']}", f"=0.5*{si['mass']}*{v}^2"
     contents = {
-        START: (start, f"={cell(END, '{p}')}", start),
-        DEPTH: ("0", outer(DEPTH, f"{inner(DEPTH, '{p}')}+{moved}"), outer(DEPTH, f"{moved}/2")),
-        "area": ("", f"=PI()*{area}"),
-        BRAKE: ("0", outer(BRAKE, f"{minus}{force}/{si['mass']}")),
-        END: ("", f"={v}{plus}{inner(BRAKE)}*{si['step']}"),
+        START: (start, start, f"={cell(END, before)}"),
+        DEPTH: (0.0, outer(DEPTH, f"{moved}/2"), outer(DEPTH, f"{inner(DEPTH, before)}+{moved}")),
+        "area": (None, f"=PI()*{area}"),
+        BRAKE: (0.0, outer(BRAKE, f"{minus}{force}/{si['mass']}")),
+        END: (None, f"={v}{plus}{inner(BRAKE)}*{si['step']}"),
         "energy": (energy, energy),
-        "n": ("{k}", "{k}"),
+        "n": (0.0, 1.0, float),
     }
     if TIME in lines:
-        contents[TIME] = ("0", outer(TIME, f"{inner(TIME, '{p}')}+{si['step']}"))
+        contents[TIME] = (0.0, outer(TIME, f"{inner(TIME, before)}+{si['step']}"))
     return {name: contents[name] for name in lines}
 
 

@@ -6,20 +6,28 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from foreign.layouts import BRAKE, BY_HAND, DEPTH, END, START, Foreign, Place, letters, made
+from foreign.byhand import BY_HAND, made
+from foreign.layouts import BRAKE, DEPTH, END, START, Foreign, Place, decimal, letters
+from foreign.truth import CLEAN, Truth, full
+
+from replication.cases import BETA_3, BETA_5
 
 Values = Mapping[Place, Any]
 
 
 @dataclass
 class Planted:
-    """A workbook with a fault, the kind to name, and the cells of which one is to be accused."""
+    """A workbook with a fault, what is then true, and stored values that are wrong."""
 
-    kind: str
+    truth: Truth
     workbook: Foreign
-    cells: tuple[Place, ...]
     wrong: dict[Place, Any] = field(default_factory=dict)
-    status: bool = True
+
+
+def accusing(kind: str | tuple[str, ...], cells: Iterable[Place]) -> Truth:
+    """The truth of a fault in any of some cells; without a kind, that there is none."""
+    kinds = (kind,) if isinstance(kind, str) else kind
+    return Truth(1, kinds, tuple(map(full, cells))) if kind else CLEAN
 
 
 Plant = Callable[[Foreign, Values], Planted | None]
@@ -27,7 +35,9 @@ FAULTS: dict[str, Plant] = {}
 """Each plants its fault in a workbook with these values, or returns None if it cannot."""
 
 
-def fault(name: str, kind: str, near: int = 1, *, stored: bool = False) -> Callable[..., None]:
+def fault(
+    name: str, kind: str | tuple[str, ...], near: int = 1, *, stored: bool = False
+) -> Callable[..., None]:
     """Register a function that returns changed contents of cells, or changed `stored` values.
 
     The fault should be found in the first `near` of these cells.
@@ -41,7 +51,8 @@ def fault(name: str, kind: str, near: int = 1, *, stored: bool = False) -> Calla
                 return None
             g = copy.deepcopy(f)
             g.cells |= {} if stored else changed
-            return Planted(kind, g, tuple(changed)[:near], changed if stored else {})
+            truth = accusing(kind, tuple(changed)[:near])
+            return Planted(truth, g, changed if stored else {})
 
         FAULTS[name] = plant
 
@@ -50,14 +61,14 @@ def fault(name: str, kind: str, near: int = 1, *, stored: bool = False) -> Calla
 
 def in_column(
     name: str, kind: str, role: str, steps: Iterable[int],
-    change: Callable[[Foreign, str, Any], object], *, stored: bool = False,
+    change: Callable[[Foreign, str, Any], object], near: int = 1, *, stored: bool = False,
 ) -> None:  # fmt: skip
     """Register a fault in a column, in some steps or all: how it changes a formula or its value."""
 
     def changes(f: Foreign, values: Values) -> Mapping[Place, Any]:
         return {p: change(f, t, values.get(p)) for p, t in _formulas(f, role, *steps).items()}
 
-    fault(name, kind, stored=stored)(changes)
+    fault(name, kind, near, stored=stored)(changes)
 
 
 def ref(place: Place, dollar: str = "") -> str:
@@ -113,12 +124,12 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any]:
 
 in_column("odd formula, factor", "odd formula", BRAKE, [33], lambda _f, t, _: f"=({t[1:]})*1.01")
 in_column("typed constant, one cell", "typed constant", BRAKE, [45], _typed)
-in_column("typed constant, column", "typed constant", BRAKE, [], _typed)
+in_column("typed constant, column", "typed constant", BRAKE, [], _typed, near=2)
 
 
-@fault("operation order", "operation order", near=999)
+@fault("another order of operations", "")
 def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
-    """The same product in another order, which changes last digits."""
+    """The same product in another order, which changes last digits: that is no fault."""
     product = r"=(-?\(.*?\))\*PI\(\)\*(\(.*\))/([^/()]+)"
     texts = _formulas(f, BRAKE)
     if not f.si or not all(re.fullmatch(product, text) for text in texts.values()):
@@ -132,7 +143,7 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any]:
     texts = _formulas(f, DEPTH, 1).items()
     old, new = "/2", ""
     if not any(old in text for _, text in texts):
-        old, new = "*0.0000000001", "*0.0000000002"
+        old, new = f"*{decimal(f.impact.step / 2)}", f"*{decimal(f.impact.step)}"
     return {place: text.replace(old, new, 1) for place, text in texts}
 
 
@@ -142,7 +153,7 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     texts = _formulas(f, BRAKE)
     if {"A(x)", "force"} & set(f.cells.values()) or not f.si or (START, 1) not in f.where:
         return None
-    step = "0.0000000002"
+    step = decimal(f.impact.step)
     if place := f.inputs.get("step"):
         step = next(iter(_names(f, place)), ref(place, "$"))
     changes = {}
@@ -171,13 +182,16 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     return changes
 
 
-in_column("drag without 1/2", "other scheme", BRAKE, [], lambda _f, t, _: t.replace("0.5*", "", 1))
+in_column("drag without 1/2", "other scheme", BRAKE, [],
+          lambda _f, t, _: t.replace("0.5*", "", 1), near=2)  # fmt: skip
 
 
 def early_stop(f: Foreign, _: Values) -> Planted | None:
     """The last nine rows are missing; cells that read the last row now read the new last one."""
     if not _formulas(f, DEPTH, 40) or f.name in ("guarded", "side-by-side"):
         return None
+    if f.impact not in (BETA_3, BETA_5):
+        return None  # an excerpt, for all that anybody can tell
     g = copy.deepcopy(f)
     gone = {place for (_, k), place in f.where.items() if k > f.steps - 9}
     g.where = {key: place for key, place in f.where.items() if place not in gone}
@@ -187,7 +201,7 @@ def early_stop(f: Foreign, _: Values) -> Planted | None:
                for p, c in f.cells.items() if p not in gone}  # fmt: skip
     role = END if (END, 40) in f.where else START
     cells = (f.where[role, f.steps - 9],)
-    return Planted("other scheme", g, cells)
+    return Planted(accusing("other scheme", cells), g)
 
 
 FAULTS["stop at another velocity"] = early_stop
@@ -258,8 +272,8 @@ def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
 def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """A radius a thousand times too large, as if its cell were in millimetres."""
     place = f.inputs.get("radius")
-    if place is None or not _formulas(f, DEPTH, 3):
-        return None
+    if place is None or not _formulas(f, DEPTH, 3) or f.impact not in (BETA_3, BETA_5):
+        return None  # of other inputs nobody can tell
     return {place: float(f"{f.cells[place] * 1000:.12g}")}
 
 
@@ -268,19 +282,21 @@ def other_velocity(f: Foreign, _: Values) -> Planted | None:
     place = f.inputs.get("velocity")
     if place is None or not _formulas(f, DEPTH, 3) or f.name == "guarded":
         return None
+    if f.impact not in (BETA_3, BETA_5):
+        return None
     g = made(f.name, replace(f.impact, velocity=450.0)) if f.name in BY_HAND else f
     if g.cells[g.inputs["velocity"]] != 450.0:
         return None  # its velocity is typed in another unit
-    return Planted("other input", g, (g.inputs["velocity"],), status=False)
+    return Planted(CLEAN, g)
 
 
 FAULTS["other input"] = other_velocity
 
 
-@fault("misprint", "printed number")
+@fault("misprint", ("printed number", "typed number", "odd formula"))
 def _(f: Foreign, _: Values) -> Mapping[Place, Any] | None:
     """A final depth typed beside the table, with two digits swapped."""
-    if f.impact.beta != 5 or f.name in ("side-by-side", "printed-digits"):
+    if f.impact != BETA_5 or f.name in ("side-by-side", "printed-digits"):
         return None
     for (sheet, row, column), text in f.cells.items():
         if str(text).startswith(("Endtiefe", "Final depth")):

@@ -1,23 +1,17 @@
-"""Workbooks in which other people lay out the report's sheet, as described in `layouts.txt`.
+"""Workbooks in which other people lay out the report's sheet, before they are files.
 
-Rows are numbered as in the report: row 0 is the impact, row 1 the first step. `faults.py` plants
-faults in the workbooks, `writers.py` writes them to files.
+Rows are numbered as in the report: row 0 is the impact, row 1 the first step. `byhand.py` has the
+layouts, `faults.py` plants faults in the workbooks, `writers.py` writes them to files.
 """
 
-import json
 import re
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import asdict, dataclass, field, replace
+from decimal import Decimal
 from functools import cache
-from pathlib import Path
-from typing import NamedTuple
 
-from openpyxl.utils.cell import (
-    column_index_from_string,
-    coordinate_to_tuple,
-    get_column_letter,
-    range_boundaries,
-)
+from openpyxl.formula.translate import Translator
+from openpyxl.utils.cell import coordinate_to_tuple, get_column_letter, range_boundaries
 
 from replication.models.impact import Impact
 from replication.models.sheet import Sheet, run
@@ -51,12 +45,19 @@ class Foreign:
     where: dict[tuple[str, int], Place] = field(default_factory=dict)
     inputs: dict[str, Place] = field(default_factory=dict)
     names: dict[str, str] = field(default_factory=dict)
+    rows: int | None = None
+    """The number of rows of its tables, if not as many as the impact needs."""
     si: bool = True
     """Whether all cells are in SI units, so that last digits can be judged."""
 
     @property
     def steps(self) -> int:
         return calculated(self.impact).steps
+
+    @property
+    def another(self) -> Impact:
+        """The impact of the second table, if there is one: of the report's other beta."""
+        return replace(self.impact, beta=3.0 if self.impact.beta == 5 else 5.0)
 
     def put(self, sheet: str, address: str, content: str | float) -> None:
         self.cells[place(sheet, address)] = content
@@ -68,101 +69,126 @@ def calculated(impact: Impact) -> Sheet:
     return run(impact)
 
 
-TEXTS = {
-    block.partition("\n")[0]: block.splitlines()[2:]
-    for block in Path(__file__).with_name("layouts.txt").read_text("utf-8").split("\n## ")[1:]
-}
-"""The lines of each layout, without its name and the line that describes it."""
+@dataclass(frozen=True)
+class Input:
+    """The cell of an input, which holds so many units for one SI unit."""
 
-BY_HAND = tuple(name for name in TEXTS if name not in ("plain", "middle", "empty"))
+    role: str
+    per: float = 1.0
 
 
-class Table(NamedTuple):
-    """A table with row 0 in row (or column) `zero`; `own`: its steps are those of the impact."""
+@dataclass(frozen=True)
+class Own:
+    """The scheme's own numbers of a column, as a program writes them, in this format."""
 
+    role: str
+    per: float = 1.0
+    form: str = ""
+
+
+def decimal(number: float) -> str:
+    """A number without an exponent, as some type it into a formula."""
+    return format(Decimal(repr(number)), "f").removesuffix(".0")
+
+
+def printed(number: float) -> float:
+    """A number with the digits of the report's table."""
+    return float(f"{number:.2e}")
+
+
+class Page:
+    """A sheet that is being filled."""
+
+    def __init__(self, f: Foreign, sheet: str) -> None:
+        self.f, self.sheet = f, sheet
+
+    def row(self, address: str, *contents: Content | Input) -> None:
+        """Fill cells side by side from an address on."""
+        impact = self.f.impact
+        values = asdict(impact) | {
+            "diameter": impact.diameter, "mass": impact.mass,
+            "resistance": impact.target_resistance,
+        }  # fmt: skip
+        sheet, row, column = place(self.sheet, address)
+        for i, content in enumerate(contents):
+            at = (sheet, row, column + i)
+            if isinstance(content, Input):
+                self.f.inputs[content.role] = at
+                self.f.cells[at] = float(f"{values[content.role] * content.per:.12g}")
+            elif content is not None:
+                self.f.cells[at] = content
+
+    def table(
+        self, zero: int, *, heads: int | None = None, steps: int | None = None,
+        across: bool = False, another: bool = False,
+    ) -> "Table":  # fmt: skip
+        """A table with the impact in row (or column) `zero`; `another` has the other beta."""
+        impact = self.f.another if another else self.f.impact
+        count = self.f.rows or steps or calculated(impact).steps
+        return Table(self.f, self.sheet, zero, heads or zero - 1, count, across, not another)
+
+
+@dataclass
+class Table:
+    """A table; `own`: its steps are those of the impact."""
+
+    f: Foreign
+    sheet: str
     zero: int
     heads: int
     steps: int
-    across: bool
-    own: bool
+    across: bool = False
+    own: bool = True
 
-    def place(self, sheet: str, line: str, k: int) -> Place:
+    @property
+    def last(self) -> int:
+        return self.zero + self.steps
+
+    def place(self, line: str, k: int) -> Place:
         """The cell of step k in a line of the table."""
         if self.across:
-            return sheet, int(line), self.zero + k
-        return place(sheet, f"{line}{self.zero + k}")
+            return self.sheet, int(line), self.zero + k
+        return place(self.sheet, f"{line}{self.zero + k}")
+
+    def column(
+        self, line: str, head: str, role: str, zero: Content,
+        rest: Content | Own | Callable[[int], Content], first: Content = None,
+    ) -> None:  # fmt: skip
+        """Fill a line: row 0; row 1 if it is special; the rest, from its first formula on.
+
+        The formula moves as a spreadsheet fills it; a function gives the content of step k.
+        """
+        if head:
+            self.f.put(self.sheet, f"{line}{self.heads}", head)
+        begin = 1 if first is None else 2
+        for k in range(self.steps + 1):
+            at = self.place(line, k)
+            content = zero if k == 0 else first if k < begin else self._rest(rest, k, begin)
+            if k == 0 and isinstance(content, Own):
+                content = self._rest(content, 0, 0)
+            if content is not None:
+                self.f.cells[at] = content
+                if role and self.own and k <= self.f.steps:
+                    self.f.where[role, k] = at
+
+    def _rest(
+        self, rest: "Content | Own | Callable[[int], Content]", k: int, begin: int
+    ) -> Content:
+        if isinstance(rest, Own):
+            value = getattr(calculated(self.f.impact).rows[k], rest.role)
+            return float(f"{value * rest.per:{rest.form}}")
+        if callable(rest):
+            return rest(k)
+        if isinstance(rest, str) and rest.startswith("="):
+            return filled(rest, *((0, k - begin) if self.across else (k - begin, 0)))
+        return rest
 
 
-def made(layout: str, impact: Impact, rows: int | None = None) -> Foreign:
-    """Fill a layout with an impact, in as many rows as that needs, or in a given number."""
-    f, sheet, table = Foreign(layout, impact), "", Table(0, 0, 0, False, False)
-    resistance, another = impact.target_resistance, 3.0 if impact.beta == 5 else 5.0
-    numbers = asdict(impact) | {
-        "diameter": impact.diameter, "mass": impact.mass, "resistance": resistance,
-        "gpa": resistance / 1e9, "dyn": resistance * 10, "another": another,
-    }  # fmt: skip
-    for line in filter(None, TEXTS[layout]):
-        word, _, rest = line.partition(" ")
-        first, *parts = (part.strip() for part in line.split("|"))
-        if first[-1].isdigit() and first[0].isalpha() and parts:
-            _, row, column = place(sheet, first)
-            for c, text in enumerate(parts, column):
-                role, colon, own = text.partition(":")
-                if colon and role in numbers:
-                    f.inputs[role], text = (sheet, row, c), own.strip() or f"{{{role}}}"
-                content = filled(text, **numbers, last=table.zero + table.steps)
-                if content is not None:
-                    f.cells[sheet, row, c] = content
-        elif parts:
-            add_column(f, sheet, table, first, *parts)
-        elif word == "table":
-            options = dict(re.findall(r"(heads|steps) (\d+)", rest))
-            start, across = rest.split()[0], "across" in rest
-            zero = column_index_from_string(start) if across else int(start)
-            own = "another" not in rest
-            steps = f.steps if own else calculated(replace(impact, beta=another)).steps
-            table = Table(zero, int(options.get("heads", zero - 1)),
-                          rows or int(options.get("steps", steps)), across, own)  # fmt: skip
-        elif word == "sheet":
-            sheet = rest
-        elif word == "name":
-            name, _, meaning = rest.partition(" ")
-            f.names[name] = meaning.format(**numbers)
-        else:
-            f.si = False
-    return f
-
-
-def add_column(
-    f: Foreign, sheet: str, table: Table, line: str, head: str, role: str, zero: str, rest: str,
-    first: str = "",
-) -> None:  # fmt: skip
-    """Fill a column of a table: row 0, then the first row if it is special, then the rest."""
-    if head:
-        f.put(sheet, f"{line}{table.heads}", head)
-    steps = calculated(f.impact).rows
-    for k in range(table.steps + 1):
-        cell, before = table.place(sheet, line, k), table.place(sheet, line, k - 1)
-        own, previous = (letters(at[2]) if table.across else at[1] for at in (cell, before))
-        row = {}
-        if k < len(steps):
-            row = dict(zip(("t", "v0", "x", "a", "v1"), steps[k], strict=True))
-            row |= {"t_ns": row["t"] * 1e9, "x_um": row["x"] * 1e6}
-        text = zero if k == 0 else first if k == 1 and first else rest
-        content = filled(text, r=own, p=previous, k=k, **row)
-        if content is not None:
-            f.cells[cell] = content
-            if role and table.own and k <= f.steps:
-                f.where[role, k] = cell
-
-
-def filled(text: str, **values: object) -> Content:
-    """Fill values into a content; if it is then JSON, read it: a number, a truth value, a text."""
-    text = text.format(**values)
-    try:
-        return json.loads(text or "null")
-    except ValueError:
-        return text
+@cache
+def filled(formula: str, down: int, right: int = 0) -> str:
+    """A formula copied so many rows down and columns to the right."""
+    to = f"{letters(1 + right)}{9999 + down}"
+    return str(Translator(formula, origin="A9999").translate_formula(to))
 
 
 def insert(f: Foreign, at: str, count: int) -> None:
@@ -200,31 +226,3 @@ def relocate(f: Foreign, to: Callable[[int, int], tuple[int, int]]) -> None:
         return c
 
     f.cells = {(s, *to(r, c)): content(v) for (s, r, c), v in f.cells.items()}
-
-
-def change(f: Foreign, address: str, text: str) -> None:
-    """Give cells other contents, as `contents` reads them; an empty text clears them."""
-    for cell, content in contents(f, address, text):
-        if content is None:
-            f.cells.pop(cell, None)
-        else:
-            f.cells[cell] = content
-
-
-def contents(f: Foreign, address: str, text: str) -> Iterator[tuple[Place, Content]]:
-    """The cells that an address of `cases.txt` stands for, and what each of them is to hold."""
-    sheet, _, cells = address.rpartition("!")
-    sheet = sheet or next((at[0] for at in f.cells), "Sheet1")
-    first, *until = cells.split(":")
-    _, row, column = place(sheet, first)
-    last = row
-    if until:
-        last = int(until[0] or max(at[1] for at in f.cells if at[0] == sheet))
-    rows = dict(enumerate(calculated(f.impact).rows))
-    for r in range(row, last + 1, int(until[1]) if until[1:] else 1):
-        known = {"r": r, "p": r - 1, "k": r - 8, "t": (r - 8) * 5e-10}
-        if scheme := rows.get(r - 8):
-            known |= {"v0": scheme.velocity_initial, "v1": scheme.velocity_final}
-            known |= {"x": scheme.depth, "a": scheme.deceleration}
-        for c, part in enumerate(text.split(" / "), column):
-            yield (sheet, r, c), filled(part, **known)

@@ -3,10 +3,12 @@
 import shutil
 import subprocess
 import tempfile
+import zipfile
 from collections.abc import Sequence
 from pathlib import Path
+from xml.sax.saxutils import escape, quoteattr
 
-from foreign.layouts import Foreign, Place
+from foreign.layouts import Foreign, Place, letters
 
 Values = dict[Place, float | str | bool]
 
@@ -26,6 +28,71 @@ def with_openpyxl(f: Foreign, path: Path) -> Path:
         book.defined_names[name] = DefinedName(name, attr_text=meaning)
     book.save(path)
     return path
+
+
+def barely(f: Foreign, path: Path) -> Path:
+    """Write only the parts that a file must have, without stored values: ten times as fast."""
+    sheets = list(dict.fromkeys(sheet for sheet, _, _ in f.cells)) or ["Sheet1"]
+    names = "".join(f"<definedName name={quoteattr(name)}>{escape(meaning)}</definedName>"
+                    for name, meaning in f.names.items())  # fmt: skip
+    listed = "".join(f'<sheet name={quoteattr(sheet)} sheetId="{i}" r:id="rId{i}"/>'
+                     for i, sheet in enumerate(sheets, 1))  # fmt: skip
+    related = "".join(f'<Relationship Id="rId{i}" Type="{RELATED}/worksheet" '
+                      f'Target="worksheets/sheet{i}.xml"/>'
+                      for i, _ in enumerate(sheets, 1))  # fmt: skip
+    with zipfile.ZipFile(path, "w") as archive:
+        archive.writestr("[Content_Types].xml", CONTENT_TYPES)
+        archive.writestr("_rels/.rels", _relationships(
+            f'<Relationship Id="rId1" Type="{RELATED}/officeDocument" Target="xl/workbook.xml"/>'
+        ))  # fmt: skip
+        archive.writestr("xl/_rels/workbook.xml.rels", _relationships(related))
+        inner = f"<sheets>{listed}</sheets><definedNames>{names}</definedNames>"
+        head = f'<workbook xmlns="{MAIN}" xmlns:r="{RELATED}">'
+        archive.writestr("xl/workbook.xml", f"{head}{inner}</workbook>")
+        for i, sheet in enumerate(sheets, 1):
+            archive.writestr(f"xl/worksheets/sheet{i}.xml", _worksheet(f, sheet))
+    return path
+
+
+MAIN = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+RELATED = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+PACKAGE = "http://schemas.openxmlformats.org/package/2006"
+SHEET_TYPE = "application/vnd.openxmlformats-officedocument.spreadsheetml"
+CONTENT_TYPES = (
+    f'<Types xmlns="{PACKAGE}/content-types">'
+    '<Default Extension="rels" '
+    'ContentType="application/vnd.openxmlformats-package.relationships+xml"/>'
+    f'<Default Extension="xml" ContentType="{SHEET_TYPE}.worksheet+xml"/>'
+    f'<Override PartName="/xl/workbook.xml" ContentType="{SHEET_TYPE}.sheet.main+xml"/></Types>'
+)
+
+
+def _relationships(text: str) -> str:
+    return f'<Relationships xmlns="{PACKAGE}/relationships">{text}</Relationships>'
+
+
+def _worksheet(f: Foreign, sheet: str) -> str:
+    """The part of a sheet: its cells, row by row."""
+    rows: dict[int, list[tuple[int, str | float]]] = {}
+    for (own, row, column), content in f.cells.items():
+        if own == sheet:
+            rows.setdefault(row, []).append((column, content))
+    text = ""
+    for row, cells in sorted(rows.items()):
+        inner = "".join(_cell(row, *cell) for cell in sorted(cells, key=lambda cell: cell[0]))
+        text += f'<row r="{row}">{inner}</row>'
+    return f'<worksheet xmlns="{MAIN}"><sheetData>{text}</sheetData></worksheet>'
+
+
+def _cell(row: int, column: int, content: str | float) -> str:
+    at = f'<c r="{letters(column)}{row}"'
+    if isinstance(content, bool):
+        return f'{at} t="b"><v>{content:d}</v></c>'
+    if isinstance(content, str) and content.startswith("="):
+        return f"{at}><f>{escape(content[1:])}</f></c>"
+    if isinstance(content, str):
+        return f'{at} t="inlineStr"><is><t xml:space="preserve">{escape(content)}</t></is></c>'
+    return f"{at}><v>{content!r}</v></c>"
 
 
 def calculated(f: Foreign) -> Values:
@@ -68,11 +135,6 @@ class Exact(float):
         return repr(float(self))
 
     __str__ = float.__repr__
-
-
-def written(f: Foreign, path: Path, values: Values | None, wrong: Values | None) -> Path:
-    """Write a file with the stored values, some of them `wrong`; if none are wrong, without any."""
-    return with_xlsxwriter(f, path, (values or {}) | wrong) if wrong else with_openpyxl(f, path)
 
 
 def with_libreoffice(paths: Sequence[Path], folder: Path, kind: str = "xlsx") -> list[Path]:

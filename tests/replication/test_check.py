@@ -1,34 +1,33 @@
-"""`coldspray check` and `diff`: how workbooks are read, what is reported, and how well."""
+"""`coldspray check`: what is true of workbooks is said of them.
+
+The truth comes from how each workbook was made; see `tests/foreign`. All go through the command.
+"""
 
 import json
-import re
-from collections.abc import Callable
-from dataclasses import replace
+from itertools import islice
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
 import pytest
-from foreign import rates, said, writers
+from foreign import messages, rates, writers
+from foreign.byhand import BY_HAND, made
 from foreign.drawn import drawn
-from foreign.layouts import DEPTH, Foreign, made
-from hypothesis import HealthCheck, assume, example, given, settings
+from foreign.edits import Case
+from foreign.files import FILES, FOLDER
+from foreign.layouts import DEPTH, Foreign
+from foreign.rates import Known
+from foreign.spoiled import SECTIONS
+from foreign.truth import Truth, ask, fault, outcome, told
+from foreign.words import other_impact
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
-from kept import calls, kept
 from openpyxl import load_workbook
 from pages import HTML, sound
 from running import coldspray
 from workbooks import usable
 
-from reference.scheme import Scheme
 from replication.audit.record import Record
 from replication.cases import BETA_5
-from replication.check.diff import KINDS as KINDS_OF_DIFF
-from replication.check.diff import Tolerance, diff
-from replication.check.examination import KINDS
-from replication.check.scheme import BRAKES, REPORT, Case, Rule, march
-from replication.check.show import check_record, diff_record, html, text
-from replication.check.words import COLUMNS, INPUTS
-from replication.check.workbook import check
 from replication.models import sheet as midpoint
 from replication.models.impact import Impact
 from replication.workbook import build
@@ -40,13 +39,113 @@ def written(f: Foreign, folder: Path) -> Path:
     return writers.with_openpyxl(f, folder / f"{f.name}.xlsx")
 
 
-@pytest.mark.parametrize(("scheme", "brake"), [*zip(Scheme, BRAKES, strict=False)])
-def test_the_rules_give_the_sheet_double_for_double(scheme: str, brake: Rule) -> None:
-    impact = replace(BETA_5, velocity=812.3, radius=7.3e-6)  # it ends beyond the radius
-    run = march(Case(**impact.motion, step=impact.step), REPORT | {"brake": brake})
-    for role, column in run.items():
-        rows = midpoint.run(impact, scheme).rows[role == "velocity_final" :]
-        assert [*column.values()] == [getattr(row, role) for row in rows]
+def says(truth: Truth, path: Path, book: Foreign, **given: str) -> None:
+    """Fail unless the truth is said of a workbook, and show what is said."""
+    answer = ask(path, given)
+    assert (outcome(truth, answer, book), told(answer)) == ("right", told(answer))
+
+
+# ---- the corpus
+
+CASES = [
+    pytest.param(
+        each,
+        id=f"{section}: {each.title}",
+        marks=[pytest.mark.slow] * (section in ("newcomers", "tables", "arbitrary")),
+    )
+    for section, cases in SECTIONS.items()
+    for each in cases
+]
+
+
+@pytest.mark.parametrize("changed", CASES)
+def test_what_was_changed_is_named_or_is_no_fault(changed: Case, tmp_path: Path) -> None:
+    path = tmp_path / "book.xlsx"
+    book = changed.written(path)
+    says(changed.truth, path, book, **changed.given)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_kept_file_is_answered_rightly(name: str, tmp_path: Path) -> None:
+    book = Foreign(name, BETA_5, {("Model", 1, 1): ""})
+    says(FILES[name], FOLDER / f"{name}.xlsx", book)
+
+
+def test_a_setting_that_rounds_numbers_is_named_once() -> None:
+    notes = ask(FOLDER / "precision-as-displayed.xlsx").record["notes"]
+    assert len([note for note in notes if "precision as displayed" in note]) == 1
+
+
+@pytest.mark.parametrize("layout", BY_HAND)
+def test_a_right_layout_is_clean_and_its_columns_are_known(layout: str, tmp_path: Path) -> None:
+    f = made(layout, BETA_5)
+    answer = ask(written(f, tmp_path))
+    assert told(answer) == "0"
+    columns = [table["columns"].keys() for table in answer.record["taken"]]
+    roles = {role for role, _ in f.where}
+    assert any(roles <= known for known in columns)
+
+
+@pytest.mark.parametrize("seed", rates.DRAWN[:6])
+def test_a_drawn_layout_is_clean_with_any_inputs(seed: int, tmp_path: Path) -> None:
+    assert told(ask(written(drawn(seed, other_impact(seed)), tmp_path))) == "0"
+
+
+@pytest.mark.parametrize("book", list(rates.other_models()), ids=lambda book: book.name)
+def test_another_model_is_not_judged(book: Known, tmp_path: Path) -> None:
+    says(book.truth, book.written(tmp_path / "book.xlsx"), book.book)
+
+
+STRANGERS = range(20, 32)
+"""Seeds of the strangers that are checked always; `rates.py` measures as many as one likes."""
+
+
+@pytest.mark.parametrize("seed", STRANGERS)
+def test_no_right_stranger_is_accused(seed: int, tmp_path: Path) -> None:
+    """Status 2 is allowed where it says why; how often it is, `rates.py` counts."""
+    (right,) = rates.strangers([seed])
+    answer = ask(right.written(tmp_path / "book.xlsx"))
+    assert answer.status in (0, 2), told(answer)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("group", rates.GROUPS)
+def test_no_right_workbook_of_a_group_is_accused(group: str, tmp_path: Path) -> None:
+    assert rates.measured(rates.right_ones(group), tmp_path).wrong == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("program", rates.WRITERS)
+def test_it_does_not_matter_which_program_saved_a_workbook(program: str, tmp_path: Path) -> None:
+    if program.startswith("LibreOffice"):
+        usable("libreoffice")
+    assert rates.saved_by(program, tmp_path).wrong == []
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fault", rates.FAULTS)
+def test_a_fault_planted_in_layouts_is_named_and_placed(fault: str, tmp_path: Path) -> None:
+    """In those by hand, of the report's case, and in some that are drawn."""
+    assert rates.measured(rates.planted("layouts by hand", [fault]), tmp_path).wrong == []
+
+
+@pytest.mark.slow
+def test_faults_of_strangers_are_placed_as_often_as_the_page_says(tmp_path: Path) -> None:
+    """The lower end of the 95 % interval of a sample is at least 80 %, and no right one accused."""
+    right = rates.measured(rates.strangers(range(1000, 1060)), tmp_path)
+    assert right.counts["accused"] + right.counts["traceback"] == 0
+    tally = rates.measured(islice(rates.spoiled_strangers(range(1000, 1120), 2), 200), tmp_path)
+    placed = tally.counts["right"] + tally.counts["misnamed"]
+    assert rates.interval(placed, tally.total)[0] >= 0.8, "\n".join(tally.wrong)
+
+
+# ---- what is said
+
+
+def test_messages_are_those_that_a_person_has_read() -> None:
+    """`python tests/foreign/messages.py > tests/foreign/messages.txt` writes them anew."""
+    said = "\n".join(messages.all_of_them()).rstrip("\n")
+    assert said == messages.KEPT.read_text("utf-8").rstrip("\n")
 
 
 def test_json_has_the_promised_keys_and_every_digit(tmp_path: Path) -> None:
@@ -56,13 +155,12 @@ def test_json_has_the_promised_keys_and_every_digit(tmp_path: Path) -> None:
     status, out, err = coldspray(*arguments, "--json")
     record = json.loads(out)
     assert (status, err) == (1, "")
-    assert coldspray(*arguments) == (1, f"{text(record)}\n", "")
     assert {"differences", "summary", "first"} <= record.keys()
     keys = {"sheet", "cell", "kind", "expected", "found", "explanation"}
     assert all(keys <= entry.keys() for entry in record["differences"])
-    assert {entry["kind"] for entry in record["differences"]} <= set(KINDS) == {
-        "stale value", "typed number", "odd formula", "typed constant", "operation order",
-        "other scheme", "other input", "unit", "printed number", "not calculated",
+    assert {entry["kind"] for entry in record["differences"]} <= {
+        "stale value", "typed number", "odd formula", "typed constant", "other scheme",
+        "other input", "unit", "printed number", "not calculated",
     }  # fmt: skip
     assert sum(record["summary"].values()) == len(record["differences"])
     first = record["first"]
@@ -71,10 +169,19 @@ def test_json_has_the_promised_keys_and_every_digit(tmp_path: Path) -> None:
     assert first["kind"] == "typed number"
     right = midpoint.run(BETA_5).rows[40]
     assert (first["found"], first["expected"]) == (3.7e-6, right.depth)
-    (taken,) = record["taken"]
-    assert taken["columns"].keys() <= COLUMNS.keys()
-    assert taken["inputs"].keys() <= INPUTS.keys()
-    assert taken["inputs"]["target_density"]["by"] == "--map"
+
+
+def test_the_verdict_is_the_first_line_and_the_first_fault_the_next(tmp_path: Path) -> None:
+    f = made("french", BETA_5)
+    f.cells[f.where[DEPTH, 40]] = 3.7e-6
+    path = written(f, tmp_path)
+    record = json.loads(coldspray("check", path, "--json")[1])
+    lines = [line for line in coldspray("check", path)[1].splitlines() if line.strip()]
+    assert record["verdict"] in lines[0]
+    assert any("G61" in line for line in lines[:4])
+
+
+# ---- our own workbook
 
 
 @pytest.fixture
@@ -85,110 +192,73 @@ def emitted(record: Record, tmp_path: Path) -> Path:
     return path
 
 
-@pytest.mark.parametrize("saved_by", ["us", "LibreOffice"])
+@pytest.mark.parametrize("saved_by", ["us", pytest.param("LibreOffice", marks=pytest.mark.slow)])
 def test_our_own_workbook_is_clean(saved_by: str, emitted: Path, tmp_path: Path) -> None:
     if saved_by == "LibreOffice":
         usable("libreoffice")
         (emitted,) = writers.with_libreoffice([emitted], tmp_path)
-    result = check(emitted)
-    assert result.first is None
-    sheets = {exam.table.sheet: exam for exam in result.examinations}
-    assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets.keys()
-    for sheet in ("Sheet beta 3", "Sheet beta 5"):
-        places = {name: value.place for name, value in sheets[sheet].inputs.items()}
-        assert places.pop("resistance") is None
-        assert {place and place[0] for place in places.values()} == {"Inputs"}
+    answer = ask(emitted)
+    assert told(answer) == "0"
+    sheets = {table["sheet"] for table in answer.record["taken"]}
+    assert {"Table A-1", "Sheet beta 3", "Sheet beta 5", "Sheet beta 3 coarse"} <= sheets
 
 
-def test_our_own_workbook_without_stored_values_has_none(emitted: Path, tmp_path: Path) -> None:
+@pytest.mark.slow
+def test_our_own_workbook_without_stored_values_is_said_to_have_none(
+    emitted: Path, tmp_path: Path
+) -> None:
     """Our workbook stores a value for every formula, also where that is an empty text."""
     load_workbook(emitted).save(tmp_path / "saved.xlsx")
-    saved = check_record(check(tmp_path / "saved.xlsx"))
-    assert any(d["explanation"].startswith("all 13,") for d in saved["differences"])
-    assert "formulas: no value is stored" not in text(check_record(check(emitted)))
-    notes = diff_record(diff(emitted, tmp_path / "saved.xlsx"))["notes"]
-    assert [": for all 13," in note for note in notes] == [True]
+    saved, ours = (
+        [d for d in ask(path).record["differences"] if "no value is stored" in d["explanation"]]
+        for path in (tmp_path / "saved.xlsx", emitted)
+    )
+    assert [d["kind"] for d in saved] == ["not calculated"]
+    assert ours == []
 
 
-def test_a_wrong_mass_of_our_own_workbook_is_told_once_for_each_table(emitted: Path) -> None:
+def test_a_wrong_mass_of_our_own_workbook_is_the_first_fault(emitted: Path) -> None:
     book = load_workbook(emitted)
     book["Inputs"]["F55"] = "=pi_*R_p^3*rho_p"  # which five tables read
     book.save(emitted)
-    checked = check(emitted)
-    record = check_record(checked)
-    claims = [(claim["id"], claim["cell"]) for claim in record["claims"]]
-    unmet = {
-        (d["sheet"], d["cell"]): d for d in record["differences"] if d["kind"] == "printed number"
-    }
-    assert len(claims) == len(set(claims)) > len(unmet) == record["summary"]["printed number"] > 10
-    depth = unmet["Sheet beta 3", "K23"]
-    assert depth["found"] == record["final_depths"][1]["found"]  # in m, as the cell has it
-    assert depth["expected"] == "10.0 um"
-    excerpt, *whole = record["final_depths"]
-    assert (excerpt["sheet"], excerpt["found"]) == ("Table A-1", None)
-    assert record["first"]["final_depth"] is None  # nor has the excerpt one by its cause
-    lines = " ".join(text(record).split())
-    for table in whole:
-        own = f"{table['sheet']}!{table['cells']}"
-        assert lines.count(f"Inputs!F55 alone explains the final depth of {own};") == 1
-    wrong = "the final depth of Sheet beta 3!D10:D157 is 8.391408 um, and should"
-    assert wrong in record["verdict"]
-    drawn_page = html(record, checked.differences, checked.calculation)
-    items = list(sound(drawn_page).iter(f"{HTML}li"))
-    assert [int(item.get("value", 0)) for item in items] == [*range(1, len(items) + 1)]
-    assert len(items) == len(record["differences"])
-    counts = re.findall("<h2 id=.*>.*: ([0-9]+)</h2>", drawn_page)
-    assert [int(number) for number in counts] == [1, len(unmet), len(items) - 1 - len(unmet)]
-    said_first = f"1 difference from the report's sheet, {len(unmet)} printed numbers not met;"
-    assert record["verdict"].startswith(said_first)
+    answer = ask(emitted)
+    first = answer.first
+    assert (first["sheet"], first["cell"], first["kind"]) == ("Inputs", "F55", "odd formula")
+    named = [(d["sheet"], d["cell"]) for d in answer.record["differences"]]
+    assert named.count(("Inputs", "F55")) == 1
 
 
-def test_a_text_over_an_input_of_our_own_workbook_is_named(emitted: Path) -> None:
-    """Its formulas test their inputs: none gives an error, and no table is found."""
+@pytest.mark.parametrize(("cell", "text"), [
+    pytest.param("C21", "three", id="the beta of some tables"),
+    pytest.param("C12", "eleven", id="the radius of all", marks=pytest.mark.slow),
+])  # fmt: skip
+def test_a_text_over_an_input_of_our_own_workbook_is_named(
+    cell: str, text: str, emitted: Path
+) -> None:
+    """Its formulas test their inputs: none gives an error, and tables show nothing."""
     book = load_workbook(emitted)
-    book["Inputs"]["C21"] = "three"  # the beta of some tables; the others are still found
+    book["Inputs"][cell] = text
     book.save(emitted)
-    checked = check(emitted)
-    first, silent = checked.first, [d for d in checked.differences if d.rank == (8,)]
-    assert first is not None
-    assert (first.place, first.kind, first.found) == (("Inputs", 21, 3), "typed number", "'three'")
-    assert {d.kind for d in silent} == {"not calculated"}
-    rows = {("Sheet beta 3", 10, 4), ("Sheet beta 3 coarse", 10, 4)}
-    assert {d.place for d in silent} == rows | {("Figure 3", 7, 17)}
-    book["Inputs"]["C12"] = "eleven"
-    book.save(emitted)
-    with pytest.raises(ValueError, match=r"Inputs!C12 holds the text 'eleven'; .* type a number"):
-        check(emitted)
+    truth = fault("typed number", f"Inputs!{cell}", or_refused=True)
+    says(truth, emitted, Foreign("our own", BETA_5))
 
 
-@given(
-    velocity=st.floats(100, 1500), radius=st.floats(1e-6, 3e-4), densities=st.floats(2e3, 2e4),
-    strength=st.floats(3e7, 5e9), share=st.floats(2e-3, 1e-2),
-)  # fmt: skip
-@settings(max_examples=12, deadline=None)
-@example(velocity=500, radius=11e-6, densities=8000, strength=3.5e9, share=1.8e-4)  # 4 ps
-@example(velocity=100, radius=11e-5, densities=2000, strength=3e7, share=8e-3)
-def test_a_right_sheet_of_other_inputs_is_clean(
-    tmp_path_factory: pytest.TempPathFactory,
-    velocity: float, radius: float, densities: float, strength: float, share: float,
-) -> None:  # fmt: skip
+# ---- any inputs, any contents
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_a_right_sheet_of_other_inputs_is_clean(seed: int, tmp_path: Path) -> None:
     """Also far from the report's inputs, whose values then do not tell the unit of a number."""
-    velocity, radius, densities, strength, step = (
-        float(f"{number:.3g}")
-        for number in (velocity, radius, densities, strength, share * radius / velocity)
-    )
-    impact = Impact(
-        velocity=velocity, radius=radius, particle_density=densities, target_density=densities,
-        beta=1.5, flow_stress=strength, step=step,
-    )  # fmt: skip
-    rows = min(midpoint.run(impact).steps, 20)
-    assume(rows > 5)
-    result = check(written(made("plain", impact, rows), tmp_path_factory.mktemp("right")))
-    assert result.first is None
-    assert {own.how for own in result.examinations[0].inputs.values()} <= {"label", "follows"}
+    assert told(ask(written(made("plain", other_impact(seed)), tmp_path))) == "0"
 
 
-# ---- hostile contents
+@pytest.mark.parametrize("inputs", [
+    pytest.param({"velocity": 500, "radius": 11e-6, "step": 4e-12}, id="4 ps"),
+    pytest.param({"velocity": 100, "radius": 11e-5, "step": 8.8e-9}, id="a light sphere"),
+])  # fmt: skip
+def test_an_excerpt_of_twenty_rows_is_clean(inputs: dict[str, float], tmp_path: Path) -> None:
+    impact = Impact(particle_density=8000, target_density=2000, beta=1.5, flow_stress=3e8, **inputs)
+    assert told(ask(written(made("plain", impact, 20), tmp_path))) == "0"
 
 
 EVIL = "</td><script>alert(1)</script>\x9b31m\u202egnp.exe"
@@ -206,14 +276,14 @@ def test_the_page_draws_the_sheet_and_no_content_reaches_it_or_the_terminal(tmp_
     page, junit = tmp_path / "page.html", tmp_path / "out.xml"
     status, out, _ = coldspray("check", written(f, tmp_path), "--html", page, "--junit", junit)
     assert status == 1
-    assert "\\x9b31m\\u202egnp.exe" in out
+    assert "x\\u202e'!D" in out  # the sheet's name
     assert all(c.isprintable() or c == "\n" for c in out)
-    assert [case.get("name") for case in ET.parse(junit).getroot()] == list(KINDS)
+    kinds = [case.get("name") for case in ET.parse(junit).getroot()]
+    assert {"stale value", "typed number", "odd formula", "unit"} <= set(kinds)
     text = page.read_text("utf-8")
     assert "\u202e" not in text
     cells = sound(text).iter(f"{HTML}td")
-    classes = [td.get("class", "") for td in cells if td.get("id")]
-    assert any("origin" in names and "typed-constant" not in names for names in classes)
+    assert any(td.get("id", "").endswith("-D60") for td in cells)
 
 
 CONTENTS = st.one_of(
@@ -245,75 +315,18 @@ def test_whatever_a_cell_holds_the_answer_is_a_record_or_one_line(
     texts = [p for p, c in f.cells.items() if isinstance(c, str) and not c.startswith("=")]
     for places, changes in ((list(f.cells), edits), (texts, heads)):
         for at, content in changes:
-            f.cells[places[at % len(places)]] = content
+            f.cells[places[at % len(places)]] = content  # type: ignore[assignment]
     path = written(f, tmp_path_factory.mktemp("fuzz"))
-    message = ""
-    try:
-        json.dumps(check_record(check(path)), allow_nan=False)
-    except ValueError as error:
-        message = str(error)
-    assert not message or (str(path) in message and "\n" not in message)
+    answer = ask(path)
+    assert bool(answer.record) == (answer.status in (0, 1))
+    assert not answer.line or (str(path) in answer.line and "\n" not in answer.line)
 
 
-@kept("replication/kept.txt", "Options of diff, and the kinds of differences that they leave")
-def test_options_say_what_is_compared(question: str, answer: str, tmp_path: Path) -> None:
-    paths = []
-    for name, formula in (("a.xlsx", "=2*B1"), ("b.xlsx", "=2*B1*(1+1E-14)")):
-        f = made("table-a1", BETA_5)
-        f.put("Sheet1", "B4", formula)
-        paths.append(writers.with_openpyxl(f, tmp_path / name))
-    status, out, err = coldspray("diff", *paths, "--json", *question.split())
-    assert (status, err) == (answer != "none", "")
-    assert (", ".join(json.loads(out)["summary"]) or "none") == answer
+# ---- the page of the manual
 
-
-test_tolerances = calls("replication/kept.txt", "Tolerances", {"Tolerance": Tolerance})
-
-
-def test_text_page_and_junit_are_those_of_check(tmp_path: Path) -> None:
-    f = made("french", BETA_5)
-    a = writers.with_openpyxl(f, tmp_path / "a.xlsx")
-    f.put("Données", "C8", 450)
-    b = writers.with_openpyxl(f, tmp_path / "b.xlsx")
-    page, junit = tmp_path / "d.html", tmp_path / "d.xml"
-    status, out, _ = coldspray("diff", a, b, "--html", page, "--junit", junit)
-    assert status == 1
-    assert "Données!C8, value\n    was 500.0, is 450.0" in out
-    assert "c0-C8" in page.read_text("utf-8")
-    assert all(f'name="{kind}"' in junit.read_text("utf-8") for kind in KINDS_OF_DIFF)
-
-
-# What is said about some five hundred workbooks, compared with the file that a person has read
-
-BEFORE = Path(said.__file__).with_suffix(".txt").read_text("utf-8")
 DOCUMENT = (Path(__file__).parents[2] / "docs" / "check.md").read_text("utf-8")
-ROWS = {name: row for rows in rates.TABLES.values() for name, row in rows.items()}
 
 
-def test_the_file_has_every_section() -> None:
-    heads = [line[3:] for line in BEFORE.splitlines() if line.startswith("## ")]
-    assert heads == list(said.SECTIONS)
-
-
-@pytest.mark.parametrize("name", said.SECTIONS)
-def test_it_says_what_it_said(name: str) -> None:
-    head, _, rest = said.section(name).partition("\n")
-    before = BEFORE.partition(f"{head}\n")[2].partition("\n## ")[0]
-    assert rest.rstrip("\n").splitlines() == before.rstrip("\n").splitlines()
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize("name", ROWS)
-def test_it_does_as_well_as_the_page_says(name: str, tmp_path: Path) -> None:
-    row: Callable[[Path], rates.Row] = ROWS[name]
-    if name.startswith("LibreOffice"):
-        usable("libreoffice")
-    line, missed = row(tmp_path)
-    assert not missed
-    assert line in DOCUMENT
-
-
-def test_the_corpus_is_as_large_as_the_page_says() -> None:
-    layouts = len(rates.workbooks("like Excel")) // 2
-    assert f"{layouts} by hand" in DOCUMENT
-    assert f"{len(rates.DRAWN)} drawn" in DOCUMENT
+def test_the_manual_has_the_tables_that_are_measured() -> None:
+    assert rates.RIGHT in DOCUMENT
+    assert rates.FAULTY in DOCUMENT

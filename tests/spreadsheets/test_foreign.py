@@ -3,20 +3,22 @@
 import zipfile
 from collections.abc import Callable
 from pathlib import Path
+from types import ModuleType
 
 import pytest
 from foreign.writers import Exact
 from hypothesis import given
 from hypothesis import strategies as st
-from kept import kept, said, spelled
+from kept import kept, said
+from spreadsheets.recalculation import Calculation, calculate, parse
 from workbooks import rewritten
 
-from spreadsheets import foreign
+from spreadsheets import foreign, package
 from spreadsheets.engines import address
 from spreadsheets.foreign import Book, Cell, WorkbookError, read
-from spreadsheets.recalculation import Calculation, calculate, parse
 
-SHEET = "xl/worksheets/sheet1.xml"
+SHEET, TABLE = "xl/worksheets/sheet1.xml", "xl/tables/table1.xml"
+MAIN, LINKS = "xl/workbook.xml", "xl/_rels/workbook.xml.rels"
 
 
 @pytest.fixture
@@ -140,16 +142,24 @@ ROW = b"<row>" + 100 * b"<c>%s</c>" + b"</row>"
 ARRAY = b'<row><c><f t="array" ref="A1:XFD1048576">A9</f></c></row>'
 
 
-@kept("spreadsheets/kept.txt", "Limits, lower than they are, and rows that are too much for them")
+@pytest.mark.parametrize(("module", "limit", "most", "rows", "reason"), [
+    (package, "MAX_UNPACKED", 2**20, b" " * 2**22, "it unpacks to more than 1 MB"),
+    (package, "MAX_EVENTS", 2**15, b"<row/>" * 2**15, "it has more than 32,768 pieces of XML"),
+    (foreign, "MAX_CELLS", 500, 20 * ROW.replace(b"%s", b"<v>1</v>"), "it has too many cells"),
+    (foreign, "MAX_FORMULAS", 500, 20 * ROW.replace(b"%s", b"<f>1+1</f><v>2</v>"), "many cells"),
+    (foreign, "MAX_FORMULA_TEXT", 500, 20 * ROW.replace(b"%s", b"<f>1+1</f>"), "500 characters"),
+    (foreign, "MAX_CELLS", 500, 30 * ARRAY + ROW.replace(b"%s", b"<v>1</v>"), "formulas fill"),
+])  # fmt: skip
 def test_what_is_too_much_is_refused(
-    question: str, answer: str, plain: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    limit, value, rows = eval(question, {"ROW": ROW, "ARRAY": ARRAY})
+    module: ModuleType, limit: str, most: int, rows: bytes, reason: str, plain: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    """The limits are lower than they are otherwise."""
     path = spoiled(plain, adding(rows))
     assert path.stat().st_size < 2**15
     assert read(path)
-    monkeypatch.setattr(foreign, limit, value)
-    assert answer in refusal(path)
+    monkeypatch.setattr(module, limit, most)
+    assert reason in refusal(path)
 
 
 def test_ranges_and_a_lone_cell_as_large_as_a_sheet_cost_nothing(plain: Path) -> None:
@@ -163,11 +173,122 @@ def test_ranges_and_a_lone_cell_as_large_as_a_sheet_cost_nothing(plain: Path) ->
     assert (len(cells), cells[1048576, 16384].value) == (7, 7)
 
 
-@kept("spreadsheets/kept.txt", "Parts of a workbook below xl, damaged, and what is said of each")
-def test_what_is_damaged_is_named(question: str, answer: str, shared: Path) -> None:
-    part, _, changed = question.partition(": ")
-    path = spoiled(shared, lambda data: eval(changed, {"data": data}), f"xl/{part}")
-    assert refusal(path).startswith(f"{path}: is damaged: {spelled(answer)}")
+@pytest.mark.parametrize(("part", "was", "now", "reason"), [
+    (SHEET, b"</sheetData>", b"</sheetdata>", f"its part {SHEET} is not valid XML: mismatched tag"),
+    (SHEET, b"</worksheet>", b"", f"its part {SHEET} is not valid XML: no element found"),
+    (SHEET, b'encoding="UTF-8"', b'encoding="odd"', "is not valid XML: unknown encoding: odd"),
+    (SHEET, b"<sheetData>", 99 * b"<a>", "its XML is nested more than 100 levels deep"),
+    (SHEET, b"<v>2.5</v>", b"<v>abc</v>", "Steps!A3 holds 'abc', which is no number"),
+    (SHEET, b"<v>1</v>", b"<v>99</v>", "the number of the shared text in Steps!A2 is '99' and must "
+     "be a whole number below 2"),
+    (SHEET, b"<v>1</v>", b"<v>-1</v>", "the number of the shared text in Steps!A2 is '-1'"),
+    (SHEET, b'<row r="2"', b'<row r="two"', "the number of a row of 'Steps' is 'two' and must be"),
+    (SHEET, b'<row r="2"', b'<row r="' + 5000 * b"9" + b'"', f"a row of 'Steps' is '{20 * '9'}'"),
+    (SHEET, b'r="A1"', b'r="$"', "no cell of 'Steps' can be at '$'"),
+    (SHEET, b'r="A1"', b'r="AAAA1"', "no cell of 'Steps' can be at 'AAAA1'"),
+    (SHEET, b'ref="B1"', b'ref="what"', "an array formula of 'Steps' stands in 'what'"),
+    (TABLE, b'ref="D1:D2"', b'ref="D1:what"', "the table 'T' stands in 'D1:what'"),
+    (TABLE, b"displayName", b"shownName", f"a <table> of its part {TABLE} has no 'displayName'"),
+    (TABLE, b'headerRowCount="0"', b'headerRowCount="no"', "headerRowCount of 'T' is 'no'"),
+    (TABLE, b'totalsRowShown="0"', b'totalsRowCount="-1"', "totalsRowCount of 'T' is '-1'"),
+    (MAIN, b'name="Steps"', b"", f"a <sheet> of its part {MAIN} has no 'name'"),
+    (MAIN, b'name="More"', b'name="STEPS"', "two of its sheets have the same name"),
+    (MAIN, b'r:id="rId1"', b"", "its sheet 'Steps' has no part of the file"),
+    (MAIN, b'localSheetId="0"', b'localSheetId="2"', "sheet of the name 'dt' is '2'"),
+    (LINKS, b"Target", b"Goal", f"a <Relationship> of its part {LINKS} has no 'Target'"),
+])  # fmt: skip
+def test_what_is_damaged_is_named(
+    part: str, was: bytes, now: bytes, reason: str, shared: Path
+) -> None:
+    path = spoiled(shared, lambda data: data.replace(was, now), part)
+    message = refusal(path)
+    assert message.startswith(f"{path}: is damaged: ")
+    assert reason in message
+
+
+@pytest.mark.parametrize(("part", "reason"), [
+    (SHEET, f"it refers to its part {SHEET}, which is not there"),
+    ("xl/sharedStrings.xml", "it refers to its part xl/sharedStrings.xml, which is not there"),
+    (LINKS, "its sheet 'Steps' has no part of the file"),
+])  # fmt: skip
+def test_a_part_that_is_gone_is_named(part: str, reason: str, shared: Path) -> None:
+    assert f"is damaged: {reason}" in refusal(spoiled(shared, lambda _: b"", part))
+
+
+# ---- files of other programs, which were read wrongly
+
+
+CASES = Path(__file__).parents[1] / "foreign" / "cases"
+
+
+def test_a_shared_formula_without_its_first_cell_is_damaged() -> None:
+    message = refusal(CASES / "shared-orphans.xlsx")
+    assert "is damaged: the formulas that Model!D17 to D66 share have no first cell; " in message
+
+
+def test_a_shared_formula_may_come_after_the_cells_that_share_it(plain: Path) -> None:
+    rows = (
+        b'<row r="5"><c r="A5"><f t="shared" si="0"/><v>1</v></c></row>'
+        b'<row r="6"><c r="A6"><f t="shared" ref="A5:A6" si="0">A5+$B$1</f><v>2</v></c></row>'
+    )
+    cells = read(spoiled(plain, adding(rows))).sheets["Sheet"]
+    assert [cells[row, 1].formula for row in (5, 6)] == ["=A4+$B$1", "=A5+$B$1"]
+
+
+def test_names_of_parts_may_be_written_in_small_letters() -> None:
+    """The part xl/SharedStrings.xml is referred to as sharedStrings.xml."""
+    cells = read(CASES / "z-sharedstrings-case.xlsx").sheets["Model"]
+    assert cells[1, 1].value == "Particle radius R [m]"
+
+
+def test_a_name_that_looks_like_a_cell_stays_in_shared_formulas() -> None:
+    cells = read(CASES / "shared-yld1.xlsx").sheets["Model"]
+    shared = [cell.formula for cell in cells.values() if "Yld" in (cell.formula or "")]
+    assert len(shared) > 50
+    assert all("Yld1" in str(formula) for formula in shared)
+
+
+def test_heads_of_tables_may_have_line_breaks() -> None:
+    cells = read(CASES / "table-linebreak-heads.xlsx").sheets["Model"]
+    formulas = [cell.formula for cell in cells.values() if cell.formula]
+    assert len(formulas) > 250
+    assert not any("[" in formula for formula in formulas)
+
+
+def test_hidden_rows_and_settings_are_read() -> None:
+    book = read(CASES / "subtotal-hidden.xlsx")
+    assert book.hidden["Model"]
+    assert not book.date1904
+    notes = read(CASES / "precision-as-displayed.xlsx").notes
+    assert [note.partition(":")[0] for note in notes] == ["precision as displayed is set"]
+
+
+@pytest.mark.parametrize(("attributes", "formula"), [
+    (b'r1="B1"', "=TABLE(,B1)"),
+    (b'dtr="1" r1="B1"', "=TABLE(B1,)"),
+    (b'dt2D="1" r1="B1" r2="A1"', "=TABLE(B1,A1)"),
+])  # fmt: skip
+def test_every_cell_of_a_what_if_table_has_its_formula(
+    attributes: bytes, formula: str, plain: Path
+) -> None:
+    rows = (
+        b'<row r="5"><c r="B5"><f t="dataTable" ref="B5:B6" ' + attributes + b"/><v>1</v></c></row>"
+        b'<row r="6"><c r="B6"><v>2</v></c></row>'
+    )
+    cells = read(spoiled(plain, adding(rows))).sheets["Sheet"]
+    assert [cells[row, 2].formula for row in (5, 6)] == [formula, formula]
+    assert cells[6, 2].array == (5, 2, 6, 2)
+
+
+@pytest.mark.parametrize(("text", "day"), [
+    (b"2024-02-16", 45338.0), (b"2024-02-17T12:00:00", 45339.5), (b"1900-01-01", 1.0),
+    (b"soon", "soon"),
+])  # fmt: skip
+def test_dates_that_are_stored_as_texts_are_numbers(
+    text: bytes, day: float | str, plain: Path
+) -> None:
+    path = spoiled(plain, adding(b'<row r="5"><c t="d"><v>' + text + b"</v></c></row>"))
+    assert read(path).sheets["Sheet"][5, 1].value == day
 
 
 def test_of_two_main_parts_the_first_is_read(plain: Path) -> None:

@@ -1,0 +1,149 @@
+"""Whether a table follows the report's model at all, or another one."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+
+from replication.check.cells import formula_at, predicted
+from replication.check.examination import Examination
+from replication.check.responses import FAMILIES, trace
+from replication.check.roles import Inputs
+from replication.check.six import REPORT, VARIANTS, end_of_row, start_of_row
+from replication.check.table import address
+from replication.check.taken import report_inputs
+from replication.check.units import Equation
+from replication.check.words import input_roles, title
+from spreadsheets.foreign import Position
+
+_LEAST_KNOWN = 3
+"""So many kinds of inputs must be known where the formulas are not the report's."""
+_ROUGH = 0.02
+"""A row of numbers belongs to the model if it gives its deceleration to two percent."""
+_LARGE = 1e9
+"""A number in place of a blank cell, so large that a force that reads it is another one."""
+_FEW_ROWS = 6
+"""Of fewer rows without formulas it cannot be said that they follow another model."""
+
+
+class AnotherModelError(ValueError):
+    """A table follows another model than the report's. The message says which formula tells."""
+
+
+def refuse_other_model(
+    exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
+) -> None:
+    """Raise AnotherModelError if the formulas are not the report's, and the inputs are not either.
+
+    Formulas that are not the report's are a fault if the rest of the table is: if two of the
+    equations between its numbers and cells hold, or if its inputs are known.
+    """
+    fitted = exam.fitted
+    if blank_inputs(exam):
+        return
+    for role, source in inputs.cells.items():
+        if source.cell in exam.read and source.value <= 0 and role != "stop_velocity":
+            where = address(source.cell, True)
+            raise AnotherModelError(
+                f"{where}: {title(role)} is {source.value:g}: no impact has that"
+            )
+    if fitted.probe is None:
+        if not (_rows_agree(exam) and _steps_agree(found, inputs, slack)):
+            raise AnotherModelError(_sentence(exam, "deceleration"))
+        return
+    wrong = [role for role, way in fitted.ways.items() if way is not REPORT[role]]
+    force = fitted.ways.get("deceleration", REPORT["deceleration"])
+    if not wrong or force is REPORT["deceleration"]:
+        return
+    hold = {eq.name for eq in found if abs(eq.residual(inputs.powers)) < slack}
+    strong = len(hold & {"D", "mass", "diameter", "G", "H", "resistance"})
+    if strong >= (1 if fitted.centered else 2) or ("D" in hold and force is None):
+        return  # the contact area is that of the sphere whose radius a cell holds
+    known, report = _known_families(inputs)
+    if known >= _LEAST_KNOWN and (strong or report > 1):
+        return
+    raise AnotherModelError(
+        _sentence(exam, wrong[0] if "deceleration" not in wrong else "deceleration")
+    )
+
+
+def blank_inputs(exam: Examination) -> list[Position]:
+    """The blank cells that the force reads as the density or the resistance of the target.
+
+    Without them the force lacks one of its parts; it has another value if numbers stand there.
+    """
+    fitted = exam.fitted
+    lacks = (VARIANTS["no drag"], VARIANTS["no resistance"])
+    if fitted.force is None or fitted.ways.get("deceleration") not in lacks:
+        return []
+    blank = sorted(trace(exam.table, fitted).blank)
+    depth, speed = (fitted.force.probe.base[s] for s in (fitted.force.x, fitted.force.u))
+
+    def value(cells: Sequence[Position]) -> float:
+        assert fitted.force is not None
+        return replace(fitted.force, cells=dict.fromkeys(cells, _LARGE))(depth, speed)
+
+    filled = value(blank)
+    if fitted.force(depth, speed) == filled:
+        return []
+    return [place for place in blank if value([p for p in blank if p != place]) != filled]
+
+
+def _known_families(inputs: Inputs) -> tuple[int, int]:
+    """How many kinds of inputs are known by label or value; how many hold the report's value."""
+    known, report = 0, 0
+    for family, members in FAMILIES.items():
+        if family in ("step", "speed"):
+            continue
+        named = is_report = False
+        for role in members:
+            source = inputs.cells.get(role) or inputs.derived.get(role)
+            if source is None:
+                continue
+            label, unit = inputs.label(source)
+            named |= bool(label) and role in input_roles(label, unit)
+            named |= inputs.how.get(role) == "--map"
+            powers = [math.log10(abs(source.value) / x) for x in report_inputs().get(role, ())]
+            is_report |= any(abs(p - round(p)) < 1e-9 for p in powers)
+        known += named or is_report
+        report += is_report
+    return known, report
+
+
+_SAYS = {
+    "deceleration": ("the deceleration", "is no pressure (G v² + H) on the contact area of a "
+                     "sphere, D x - x²"),
+    "velocity_final": ("the velocity", "does not lose the deceleration times the step"),
+    "depth": ("the depth", "does not grow by a velocity times the step"),
+}  # fmt: skip
+
+
+def _sentence(exam: Examination, role: str) -> str:
+    """Say that a table is another model, and by which cell."""
+    table = exam.table
+    place = table.place(role if role in table.lines else exam.fitted.brakes, min(3, table.steps))
+    subject, what = _SAYS[role]
+    depth, speed = table.area("depth"), table.area(start_of_row(table)[0])
+    found = f"another model: {table.sheet!r} has depths in {depth} and velocities in {speed}"
+    if place in table.evaluator.formulas:
+        formula = formula_at(exam, place)[:120]
+        return f"{found}, but {subject} in {address(place, True)}, {formula}, {what}"
+    return f"{found}, but the number in {address(place, True)} {what}"
+
+
+def _steps_agree(found: Sequence[Equation], inputs: Inputs, slack: float) -> bool:
+    """Whether depth and velocity of a table of numbers change by the same step, in some unit."""
+    rests = [eq.residual(inputs.powers) for eq in found if eq.name == "c = e"]
+    return all(abs(rest - round(rest)) < max(100 * slack, 1e-3) for rest in rests)
+
+
+def _rows_agree(exam: Examination) -> bool:
+    """Whether most rows of numbers follow from the six numbers that were fitted to them."""
+    table, six = exam.table, exam.fitted.six
+    if not all(math.isfinite(x) for x in six[:4]) or table.steps < _FEW_ROWS:
+        return True
+    role = "deceleration" if "deceleration" in table.lines else end_of_row(table)[0]
+    least = 1e-3 * max(map(abs, table.lines[role].values.values()))
+    rows = ((table.number(role, k), predicted(exam, role, k)) for k in table.rows if k >= 1)
+    pairs = [(value, wanted) for value, wanted in rows if value is not None and wanted is not None]
+    good = sum(abs(a - b) <= _ROUGH * max(abs(a), least) for a, b in pairs)
+    return not pairs or good > len(pairs) / 2

@@ -1,0 +1,274 @@
+"""Whether the six numbers and the cells agree, and the units by which they do.
+
+The numbers have to obey D = 2R, 2GM/pi = rho_t, HM/pi = R_t, M = 4/3 pi R^3 rho_p, R_t = beta Y_t
+and c = e = dt, whatever units the columns and cells are in. Where one is broken by a power of ten,
+a unit is to blame; the one statement is sought that mends all.
+"""
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+
+from reference.units import same_dimension, to_si
+from replication.check.fit import Fit
+from replication.check.responses import CLOSE, Item, Source, unit_power
+from replication.check.roles import Inputs
+from replication.check.six import start_of_row
+from replication.check.table import Table
+from replication.check.words import COLUMNS, INPUTS
+
+_MOST_CHANGES = 6
+"""So many units that nobody states may have to be found together."""
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A positive number times powers of units that may be unknown: the number's logarithm."""
+
+    log: float
+    units: Mapping[Item, float] = field(default_factory=dict)
+
+    def __mul__(self, other: "Quantity") -> "Quantity":
+        items = self.units.keys() | other.units.keys()
+        powers = {i: self.units.get(i, 0.0) + other.units.get(i, 0.0) for i in items}
+        return Quantity(self.log + other.log, {i: n for i, n in powers.items() if n})
+
+    def __pow__(self, power: float) -> "Quantity":
+        return Quantity(self.log * power, {i: n * power for i, n in self.units.items()})
+
+    def __truediv__(self, other: "Quantity") -> "Quantity":
+        return self * other**-1
+
+
+def _number(value: float | None) -> Quantity:
+    """A number without a unit; its logarithm is NaN if it has none."""
+    return Quantity(math.log10(value) if value is not None and 0 < value < math.inf else math.nan)
+
+
+def _unit(item: Item) -> Quantity:
+    return Quantity(0.0, {item: 1.0})
+
+
+def _of(source: Source) -> Quantity:
+    """The quantity in a cell, or typed into a formula."""
+    return _number(source.value) * _unit(source.item)
+
+
+@dataclass(frozen=True)
+class Equation:
+    """Two sides that should be equal: the one over the other, with the units that it contains."""
+
+    name: str
+    ratio: Quantity
+
+    @property
+    def terms(self) -> Mapping[Item, float]:
+        """The units, with their powers."""
+        return self.ratio.units
+
+    def residual(self, powers: Mapping[Item, float]) -> float:
+        """The logarithm of the ratio, which is 0 if the equation holds; `powers` are the units'."""
+        return self.ratio.log + sum(n * powers.get(i, 0.0) for i, n in self.terms.items())
+
+
+def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
+    """The equations between the six numbers and the cells that can be written down."""
+    six = fitted.six
+    X, W, A, T = (
+        _unit(("column", role))
+        for role in ("depth", start_of_row(table)[0], "deceleration", "time")
+    )
+    if "deceleration" not in table.lines:
+        A = W**2 / X
+    c, e, t = _number(six.c) * X / W, _number(abs(six.e)) * W / A, _number(fitted.time) * T
+    sides = {"c = e": (c, e)} if "deceleration" in table.lines else {}
+    if {"velocity_initial", "velocity_final"} <= table.lines.keys():
+        ends = (_unit(("column", role)) for role in ("velocity_initial", "velocity_final"))
+        sides["v = v"] = (next(ends), next(ends))
+    sides |= _of_step(table, inputs, c, e, t)
+    velocity = inputs.cells.get("velocity")
+    if velocity is not None and velocity.powers:
+        sides["V"] = (_number(six.V) * W, _of(velocity))
+    G, H = _number(six.G) * A / (W * X) ** 2, _number(six.H) * A / X**2
+    sides |= _of_force(inputs, _number(six.D) * X, G, H)
+    found = [Equation(name, left / right) for name, (left, right) in sides.items()]
+    return [eq for eq in found if math.isfinite(eq.ratio.log)]
+
+
+_Sides = dict[str, tuple[Quantity, Quantity]]
+
+
+def _of_step(table: Table, inputs: Inputs, c: Quantity, e: Quantity, t: Quantity) -> _Sides:
+    """The equations of the time step; a cell that a column does not respond to is left out."""
+    step = inputs.cells.get("step") or inputs.derived.get("step")
+    if step is None or (inputs.how.get("step") == "unread" and step.powers):
+        return {"t = c": (t, c)}
+    sides = {"c = dt": ("c", c), "e = dt": ("e", e), "t = dt": ("t", t)}
+    if "deceleration" not in table.lines:
+        del sides["e = dt"]
+    by_cell = {
+        name: (side, _of(step))
+        for name, (symbol, side) in sides.items()
+        if abs(step.powers.get(symbol, 1.0) - 1) < 0.02
+    }
+    return by_cell if "t = dt" in by_cell else {**by_cell, "t = c": (t, c)}
+
+
+def _of_force(inputs: Inputs, D: Quantity, G: Quantity, H: Quantity) -> _Sides:
+    """The equations of the sphere and its mass, then those of the target."""
+    cells, derived, sides = inputs.cells, inputs.derived, _Sides()
+    R = _of(cells["radius"]) if "radius" in cells else None
+    diameter = cells.get("diameter") or derived.get("diameter")
+    if diameter is not None:
+        sides["D"] = (D, _of(diameter))
+        if R is not None:
+            sides["diameter"] = (_of(diameter), _number(2.0) * R)
+    if R is not None and "diameter" not in sides:
+        sides["D"] = (D, _number(2.0) * R)
+    R = R or (_of(diameter) if diameter is not None else D) / _number(2.0)
+    M, mass = None, cells.get("mass") or derived.get("mass")
+    if "particle_density" in cells:
+        M = _number(4 / 3 * math.pi) * R**3 * _of(cells["particle_density"])
+    if mass is not None:
+        if M is not None:
+            sides["mass"] = (_of(mass), M)
+        M = _of(mass)
+    return sides | _of_target(inputs, G, H, M)
+
+
+def _of_target(inputs: Inputs, G: Quantity, H: Quantity, M: Quantity | None) -> _Sides:
+    """The equations of the target's density and its resistance; M is the mass, if it is known."""
+    cells, derived, sides = inputs.cells, inputs.derived, _Sides()
+    target = cells.get("target_density") or derived.get("target_density")
+    if target is not None and M is not None:
+        sides["G"] = (_number(2 / math.pi) * G * M, _of(target))
+    strength, resistance = None, derived.get("resistance") or cells.get("resistance")
+    beta = cells.get("beta") or derived.get("beta")
+    stress = cells.get("flow_stress") or derived.get("flow_stress")
+    if beta is not None and stress is not None:
+        strength = _number(beta.value) * _of(stress)
+        if resistance is not None:
+            sides["resistance"] = (_of(resistance), strength)
+    strength = _of(resistance) if resistance is not None else strength
+    if strength is not None and M is not None:
+        sides["H"] = (H * M / _number(math.pi), strength)
+    return sides
+
+
+# ---- the units by which they hold
+
+
+def state_units(table: Table, inputs: Inputs) -> None:
+    """Take the units that heads and labels state, if they measure the right quantity."""
+    for role, line in table.lines.items():
+        if line.unit and line.unit != "1" and same_dimension(line.unit, COLUMNS[role]):
+            inputs.powers["column", role] = math.log10(float(to_si(line.unit)))
+            inputs.stated["column", role] = line.sure
+    for role, source in (*inputs.cells.items(), *inputs.derived.items()):
+        _, unit = inputs.label(source)
+        if unit and same_dimension(unit, INPUTS[role]) and INPUTS[role] != "1":
+            inputs.powers[source.item] = math.log10(float(to_si(unit)))
+        else:
+            inputs.stated.pop(source.item, None)
+
+
+def mended(
+    found: Sequence[Equation], inputs: Inputs, slack: float
+) -> tuple[dict[Item, float], list[Item]] | None:
+    """Units by which all equations hold, and the stated ones that had to be changed.
+
+    Units that are not stated are free. Of those that are stated, at most one is changed. None if
+    no such units exist.
+    """
+    items = list(dict.fromkeys(item for eq in found for item in eq.terms))
+    texts = {item for item in items if item in inputs.stated and item in inputs.powers}
+    free = [item for item in items if item not in inputs.stated]
+    if (result := _solve(found, inputs.powers, free, slack)) is not None:
+        return result, []
+    mends: list[tuple[bool, bool, int, Item, dict[Item, float]]] = []
+    for item in items:
+        if item in texts:
+            changed = _solve(found, inputs.powers, [*free, item], slack)
+            if changed is not None:
+                power = round(changed.get(item, 0.0) - inputs.powers.get(item, 0.0))
+                # What is not stated surely is changed first; units mostly lie a thousand apart. A
+                # number that is the report's states no unit by itself, so it is not changed.
+                mends.append((inputs.stated[item], power % 3 != 0, len(mends), item, changed))
+    if not mends:
+        return None
+    *_, item, changed = min(mends, key=lambda entry: entry[:3])
+    same = changed.get(item, 0.0) == inputs.powers.get(item, 0.0)
+    return changed, [] if same else [item]
+
+
+def _solve(
+    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], slack: float
+) -> dict[Item, float] | None:
+    """Change as few free units as possible, by powers of ten, so that all equations hold."""
+    left, later = _set_apart(found, powers, free, slack)
+    for most in range(_MOST_CHANGES):
+        result = _changed(left, dict(powers), list(free), most, slack)
+        if result is not None:
+            holds = all(_mend_own(eq, own, result, slack) for eq, own in reversed(later))
+            if holds:
+                return result
+            break
+    for most in range(_MOST_CHANGES):  # the units set apart do not fit: all equations at once
+        if (result := _changed(found, dict(powers), list(free), most, slack)) is not None:
+            return result
+    return None
+
+
+_Own = list[tuple[Equation, list[Item]]]
+
+
+def _set_apart(
+    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], slack: float
+) -> tuple[list[Equation], _Own]:
+    """Set equations apart that have a free unit of their own: at the end it makes them hold."""
+    left, later = list(found), _Own()
+    while any(abs(eq.residual(powers)) >= slack for eq in left):
+        counts: dict[Item, int] = {}
+        for eq in left:
+            for item in eq.terms:
+                counts[item] = counts.get(item, 0) + 1
+        alone = ((eq, [i for i in eq.terms if i in free and counts[i] == 1]) for eq in left)
+        entry = next(((eq, own) for eq, own in alone if own), None)
+        if entry is None:
+            break
+        left.remove(entry[0])
+        later.append(entry)
+    return left, later
+
+
+def _mend_own(eq: Equation, own: Sequence[Item], result: dict[Item, float], slack: float) -> bool:
+    """Make an equation hold by one of its own units; whether that is possible."""
+    rest = eq.residual(result)
+    if abs(rest) < slack:
+        return True
+    for item in own:
+        power = unit_power(-rest / eq.terms[item], slack)
+        if power is not None:
+            result[item] = result.get(item, 0.0) + power
+            return True
+    return False
+
+
+def _changed(
+    left: Sequence[Equation], powers: dict[Item, float], free: list[Item], most: int, slack: float
+) -> dict[Item, float] | None:
+    """Change up to `most` free units, so that the equations hold; None if that cannot be done."""
+    wrong = [eq for eq in left if abs(eq.residual(powers)) >= slack]
+    if not wrong or not most:
+        return None if wrong else powers
+    # An equation with a single free unit leaves no choice, so that it comes first.
+    broken = min(wrong, key=lambda eq: sum(item in eq.terms for item in free))
+    rest = broken.residual(powers)
+    for item in free:
+        power = -rest / broken.terms[item] if item in broken.terms else 0.0
+        if round(power) and abs(power - round(power)) <= slack + 2 * CLOSE:
+            changed = {**powers, item: powers.get(item, 0.0) + round(power)}
+            others = [i for i in free if i != item]
+            if (result := _changed(left, changed, others, most - 1, slack)) is not None:
+                return result
+    return None
