@@ -92,7 +92,9 @@ class Book:
     `columns` maps the columns of tables, written as in formulas, such as "Steps[x]", to their
     cells. `notes` tell the user what is left out. Stored numbers are exact to within `resolution`.
     `hidden` has the hidden rows of each sheet. `date1904`: day 0 of its dates is 1 January 1904.
-    `as_displayed`: its numbers are rounded as they are shown.
+    `as_displayed`: its numbers are rounded as they are shown. Of a text file `heads` has the head
+    of each column, and `digits` how each number is printed: its number of digits, and the power of
+    ten of the last one.
     """
 
     path: Path
@@ -104,6 +106,13 @@ class Book:
     hidden: Mapping[str, frozenset[int]] = field(default_factory=dict)
     date1904: bool = False
     as_displayed: bool = False
+    digits: Mapping[str, Mapping[tuple[int, int], tuple[int, int]]] = field(default_factory=dict)
+    heads: Mapping[int, str] | None = None
+
+    @property
+    def is_text(self) -> bool:
+        """Whether it was read from a text file, in which cells have lines and columns."""
+        return self.heads is not None
 
     def __getitem__(self, position: Position) -> Cell:
         sheet, row, column = position

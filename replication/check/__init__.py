@@ -3,7 +3,8 @@
 How a workbook becomes six numbers:
 
 1. `workbook` reads it and evaluates every formula (`spreadsheets.evaluate`). `repair` finds
-   references that lack their $, and goes on with the formulas that were meant.
+   references that lack their $, and goes on with the formulas that were meant. `delimited` reads
+   rows that a program wrote as text.
 2. `table` finds tables by their values alone: from row to row the depth grows by the velocity times
    a constant, and the velocity falls by the deceleration times the same constant.
 3. `fit` probes one row that has the usual formulas: it gives the row depths and velocities that are

@@ -13,7 +13,7 @@ from replication.check.fit import Probe
 from replication.check.roles import Inputs
 from replication.check.six import EXACT, REPORT, start_of_row
 from replication.check.table import LEAST, Line, Table, behind, runs
-from replication.check.words import title
+from replication.check.words import COLUMNS, title
 from replication.reading import quoted
 from spreadsheets.evaluate import Error, Evaluator, LiteralKey, Scalar, Shape, written
 from spreadsheets.foreign import Position
@@ -57,67 +57,106 @@ def feeding(table: Table) -> list[Line]:
     )
 
 
-def predicted(exam: Examination, role: str, k: int) -> float | None:
-    """What a cell should hold by the six numbers, given the other cells; None if one is missing."""
+Mended = Mapping[tuple[str, int], float]
+"""What wrong cells should hold, by their roles and rows."""
+
+
+def _force(exam: Examination, x: float, v: float) -> float:
+    """The deceleration at a depth and a velocity as it was fitted, positive."""
+    six, bounded = exam.fitted.six, exam.fitted.bounded
+    a = six.deceleration(x, v, bounded)
+    half = a * abs(six.e) / 2
+    return six.deceleration(x, v - half, bounded) if exam.fitted.centered else a
+
+
+def predicted(exam: Examination, role: str, k: int, mended: Mended | None = None) -> float | None:
+    """What a cell should hold by the six numbers, given the other cells; None if one is missing.
+
+    `mended` takes the place of what these cells hold.
+    """
+    mended = mended or {}
     table = exam.table
     result: float | None
     if role == "time":
-        result = _next_time(exam, k)
+        result = _next_time(exam, k, mended)
     elif role == "depth":
-        result = _next_depth(exam, k)
+        result = _next_depth(exam, k, mended)
     elif role == "deceleration":
-        result = _brake(exam, k)
+        result = _brake(exam, k, mended)
     elif role == "velocity_initial" and "velocity_final" in table.lines:
-        result = table.number("velocity_final", k - 1)
+        result = _number(exam, mended, "velocity_final", k - 1)
     else:
-        result = _next_velocity(exam, k if role == "velocity_final" else k - 1)
+        result = _next_velocity(exam, k if role == "velocity_final" else k - 1, mended)
     return result if result is not None and math.isfinite(result) else None
 
 
-def _next_time(exam: Examination, k: int) -> float | None:
+def _number(exam: Examination, mended: Mended, role: str, k: int) -> float | None:
+    """The number of a cell, or what it should be."""
+    right = mended.get((role, k))
+    return exam.table.number(role, k) if right is None else right
+
+
+def _next_time(exam: Examination, k: int, mended: Mended) -> float | None:
     """The time in row k by that of the row before."""
-    before, step = exam.table.number("time", k - 1), exam.fitted.time
+    before, step = _number(exam, mended, "time", k - 1), exam.fitted.time
     return None if before is None or step is None else before + step
 
 
-def _start_velocity(exam: Examination, k: int) -> float | None:
+def _start_velocity(exam: Examination, k: int, mended: Mended) -> float | None:
     """The velocity at the start of row k."""
     role, lag = start_of_row(exam.table)
-    return exam.table.number(role, k + lag)
+    return _number(exam, mended, role, k + lag)
 
 
-def _next_depth(exam: Examination, k: int) -> float | None:
+def _next_depth(exam: Examination, k: int, mended: Mended) -> float | None:
     """The depth in row k by that of the row before and the velocity; half a step in the first."""
-    before, v = exam.table.number("depth", k - 1), _start_velocity(exam, k)
+    before, v = _number(exam, mended, "depth", k - 1), _start_velocity(exam, k, mended)
     if v is None or (before is None and k != 1):
         return None
     c = exam.fitted.six.c
     return c * v / 2 if k == 1 or before is None else before + c * v
 
 
-def _brake(exam: Examination, k: int) -> float | None:
+def _brake(exam: Examination, k: int, mended: Mended) -> float | None:
     """The deceleration in row k by its depth and velocity, with the sign of its column."""
-    x, u = exam.table.number("depth", k), _start_velocity(exam, k)
+    x, u = _number(exam, mended, "depth", k), _start_velocity(exam, k, mended)
     if x is None or u is None:
         return None
-    six = exam.fitted.six
-    a = six.deceleration(x, u)
-    if exam.fitted.centered:
-        a = six.deceleration(x, u - a * six.e / 2)
-    return exam.fitted.sign * a
+    return exam.fitted.sign * _force(exam, x, u)
 
 
-def _next_velocity(exam: Examination, k: int) -> float | None:
+def _next_velocity(exam: Examination, k: int, mended: Mended) -> float | None:
     """The velocity at the end of row k by that at its start and its deceleration."""
-    v, a = _start_velocity(exam, k), exam.table.number("deceleration", k)
+    v, a = _start_velocity(exam, k, mended), _number(exam, mended, "deceleration", k)
     if a is None and "deceleration" not in exam.table.lines:
-        a = _brake(exam, k)
+        a = _brake(exam, k, mended)
     return None if v is None or a is None else v - exam.fitted.six.e * exam.fitted.sign * a
+
+
+def _following(exam: Examination) -> frozenset[Position]:
+    """The cells of a table without formulas that are right by what wrong cells should hold.
+
+    A program goes on with the number that it had, not with the one that somebody typed over it.
+    """
+    table, mended, following = exam.table, dict[tuple[str, int], float](), set[Position]()
+    roles = [role for role in COLUMNS if role in table.lines]
+    for k in sorted(table.rows):
+        for role in roles if k > 1 else ():
+            value, line = table.number(role, k), table.lines[role]
+            if value is None or _same(value, predicted(exam, role, k), line, exam):
+                continue
+            right = predicted(exam, role, k, mended)
+            if right is not None and _same(value, right, line, exam):
+                following.add(table.place(role, k))
+            elif right is not None:
+                mended[role, k] = right
+    return frozenset(following)
 
 
 def odd_cells(exam: Examination, inputs: Inputs) -> None:
     """Report the cells of a table that differ from their column, also in lines that it reads."""
     table = exam.table
+    exam.following = frozenset() if exam.fitted.probe is not None else _following(exam)
     for role, line in table.lines.items():
         if _is_pasted(exam, role, line):
             cells = [p for p in exam.cells(role, 1) if p not in table.evaluator.formulas]
@@ -286,6 +325,8 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
     for k, place in _rows_of(table, line, role):
         shape = evaluator.formulas.get(place)
         if usual is not None and shape is usual and evaluator.values.get(place) is not None:
+            continue
+        if place in exam.following:
             continue
         if role is None and line.place(first)[1:] > place[1:]:
             continue
@@ -493,15 +534,17 @@ def _spread(exam: Examination, line: Line, expected: float) -> float:
     """By how much typed digits of the cells before may change what follows from them."""
     table = exam.table
     role = next((r for r, o in table.lines.items() if o is line), None)
-    spread = exam.fitted.slack * expected
+    spread = exam.fitted.digits * expected
     if role is not None and role.startswith("velocity"):
         speed = table.lines[start_of_row(table)[0]]
-        spread += 4 * speed.rounding(abs(exam.fitted.six.V))
+        spread += 4 * speed.rounding(max(map(abs, speed.values.values())))
         if "deceleration" in table.lines:
             brake = table.lines["deceleration"]
             spread += (
                 abs(exam.fitted.six.e) * 2 * brake.rounding(max(map(abs, brake.values.values())))
             )
+        else:
+            spread += exam.fitted.slack * speed.largest_change
     if role == "depth":
         spread += 2 * line.rounding(max(map(abs, line.values.values())))
     if role == "deceleration":

@@ -61,7 +61,7 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
     if value is None:
         _no_number(exam, place, "the first depth", wanted)
         return
-    digits = 0.0 if line.computed else exam.fitted.slack + line.rounding(value) / abs(wanted)
+    digits = 0.0 if line.computed else exam.fitted.digits + line.rounding(value) / abs(wanted)
     slack, ratio = 1e-9 + 2 * digits, value / wanted
     if abs(ratio - 1) <= slack:
         if is_formula:

@@ -48,7 +48,8 @@ class Examination:
     are all inputs that are known, `read` all cells outside the table that it rests on. `corrected`
     is an input whose number is in another unit, with its right value. `right_depth` [m] is the
     final depth of the report's scheme with the intended inputs. `stop_row` is the row of the stop
-    where rows after it are spare or at rest.
+    where rows after it are spare or at rest. `following` are cells that are right by what wrong
+    cells should hold.
     """
 
     table: Table
@@ -64,6 +65,7 @@ class Examination:
     ends: bool = True
     stop_row: int | None = None
     corrected: tuple[str, float] | None = None
+    following: frozenset[Position] = frozenset()
     differences: list[Difference] = field(default_factory=list)
 
     def on_own_sheets(self, place: Position) -> bool:

@@ -127,7 +127,8 @@ class Fit:
     none; `brakes` is the column in which the force is seen. `force` is missing if there is none,
     or if there are no formulas; so is then `probe`. `time_adds` and `depth_adds` say whether the
     formula of a time or a depth adds to the one before, or is a sum by itself. `slack` is the
-    relative uncertainty of the numbers.
+    relative uncertainty of the six. Of numbers without formulas `bounded` says whether the area
+    stays the same beyond D/2, and `digits` is the relative uncertainty of the numbers as typed.
     """
 
     six: Six
@@ -141,6 +142,8 @@ class Fit:
     slack: float = EXACT
     time_adds: bool = False
     depth_adds: bool = True
+    bounded: bool = True
+    digits: float = EXACT
 
     @property
     def odd(self) -> list[Variant | None]:
@@ -648,7 +651,7 @@ def is_bounded(fitted: Fit) -> bool:
     """Whether the contact area stays pi R² beyond the depth R, as in the report."""
     six = fitted.six
     if fitted.force is None or not 0 < six.D < math.inf:
-        return True
+        return fitted.bounded
     depth, speed = 0.75 * six.D, abs(six.V) / 3
     wanted = six.deceleration(depth, speed)
     close = 0.05 if fitted.centered else 1e-6

@@ -35,6 +35,8 @@ _FEW_DIGITS = 1e-4 / math.log(10)
 """The logarithm of a ratio up to which a unit that is no power of ten may be converted."""
 _ABOUT = 0.05
 """The logarithm of a ratio up to which two numbers are about the same: 12 percent."""
+_LEAST_RATIO = 0.02
+"""The target's density over the particle's is larger: magnesium over osmium is 0.08."""
 _VAGUE = 30
 """Numbers without formulas may miss an equation by so many times their uncertainty."""
 
@@ -80,6 +82,7 @@ def examine(
         for item in result[1]:
             _wrong_unit(exam, inputs, item, stated.get(item, 0.0))
     _other_ways(exam)
+    _without_drag(exam)
     units_beside(exam, inputs)
     compare_with_report(exam, inputs)
     intend(exam)
@@ -136,7 +139,7 @@ def _other_ways(exam: Examination) -> None:
         if role == "velocity_final" and role not in table.lines:
             column = start_of_row(table)[0]
         line = table.lines[column]
-        cells = exam.cells(column, 2 if role == "depth" else 1)
+        cells = exam.cells(column, 2 if role == "depth" or column == "velocity_initial" else 1)
         if line.usual is not None:  # a first row may have the right formula
             formulas = table.evaluator.formulas
             cells = [cell for cell in cells if formulas.get(cell) is line.usual] or cells
@@ -147,6 +150,25 @@ def _other_ways(exam: Examination) -> None:
         else:
             text = f"{formula_at(exam, cells[0])} is not what the report has for {title(column)}"
             exam.add("odd formula", cells, None, text)
+
+
+def _without_drag(exam: Examination) -> None:
+    """Report numbers without formulas whose deceleration does not depend on the velocity.
+
+    G D^3 = 3 rho_t/rho_p, whatever the units, as c and e are the same step. No two solids have a
+    ratio of densities below 1/50; it is reported only where the digits would show twice that.
+    """
+    six, slack = exam.fitted.six, exam.fitted.slack
+    if exam.fitted.probe is not None or not (six.H > 0 and six.D > 0 and six.c and six.V > 0):
+        return
+    drag = 3 / six.D**3 * six.c / abs(six.e)
+    shown = 2 * _LEAST_RATIO * drag * six.V**2 > 100 * slack * six.H
+    if shown and abs(six.G) < _LEAST_RATIO * drag:
+        text = (
+            "no drag: the deceleration does not depend on the velocity; the force lacks the drag, "
+        )
+        text += "or has it at the impact velocity"
+        exam.add("other scheme", exam.cells(exam.fitted.brakes, 2), None, text)
 
 
 def _first_wrong(exam: Examination, off: float | None = None) -> list[Position]:

@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from replication.check.cells import formula_at, predicted
+from replication.check.delimited import where
 from replication.check.examination import Examination
 from replication.check.responses import FAMILIES, trace
 from replication.check.roles import Inputs
@@ -127,6 +128,8 @@ def _sentence(exam: Examination, role: str) -> str:
     if place in table.evaluator.formulas:
         formula = formula_at(exam, place)[:120]
         return f"{found}, but {subject} in {address(place, True)}, {formula}, {what}"
+    if table.evaluator.book.is_text:
+        return f"another model: the number in {where(table.evaluator.book, place)}, {what}"
     return f"{found}, but the number in {address(place, True)} {what}"
 
 

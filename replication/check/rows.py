@@ -7,6 +7,7 @@ from statistics import median
 from replication.check.fit import Fit, fit_formulas
 from replication.check.six import (
     REPORT,
+    VARIANTS,
     Six,
     end_of_row,
     impact_velocity,
@@ -46,16 +47,54 @@ def fit_numbers(table: Table) -> Fit:
     c = _middle(growth)
     e = _middle(falls) if falls else c
     sign = -1.0 if shown and forces and median(a for *_, a in forces) < 0 else 1.0
-    G = H = D = math.nan
-    slack = _uncertainty(table)
+    force = Six(math.nan, math.nan, math.nan, 1.0, 1.0, 1.0)
+    bounded, centered = True, False
+    digits = _uncertainty(table)
+    slack = digits
+    if forces and not shown:  # what velocities fall by has fewer digits than they have
+        line = table.lines[start[0]]
+        error = 2 * line.rounding(max(u for _, u, _ in forces))
+        slack = max(slack, min(0.05, error / (median(abs(a) for *_, a in forces) or 1.0)))
     if -len(forces) * math.log10(slack) > _ENOUGH:
         divisor = sign if shown else e
-        G, H, D = _least_squares([(x, u, a / divisor) for x, u, a in forces])
+        rows = [(x, u, a / divisor) for x, u, a in forces]
+        force, bounded, centered = _best_force(rows, abs(e), slack)
+    six = Six(*force[:3], c, sign * e if falls else c, impact_velocity(table))
+    ways = {role: REPORT[role] for role in ("depth", "deceleration", "velocity_final")}
+    if centered:
+        ways["deceleration"] = VARIANTS["centered"]
     return Fit(
-        Six(G, H, D, c, sign * e if falls else c, impact_velocity(table)), time_step(table), sign,
-        {role: REPORT[role] for role in ("depth", "deceleration", "velocity_final")},
-        "deceleration" if shown else end[0], slack=slack,
+        six, time_step(table), sign, ways, "deceleration" if shown else end[0], slack=slack,
+        bounded=bounded, centered=centered, digits=digits,
     )  # fmt: skip
+
+
+def _best_force(rows: Sequence[Row], e: float, slack: float) -> tuple[Six, bool, bool]:
+    """The force that rows (x, u, a) show, whether it is bounded, and whether it is centered.
+
+    It is the report's, unless that misses the rows by more than their digits, and another one by
+    a tenth of that at most.
+    """
+    force = Six(*_least_squares(rows), 1.0, 1.0, 1.0)
+    missed = _usual_miss(rows, force)
+    if not missed > slack / 4 or len(rows) < 8:
+        return force, True, False
+    free = Six(*_least_squares(rows, bounded=False), 1.0, 1.0, 1.0)
+    if max(x for x, *_ in rows) > free.D / 2 and _usual_miss(rows, free, False) < missed / 10:
+        return free, False, False
+    central, middle = force, rows
+    for _ in range(8):
+        middle = [(x, u - e / 2 * central.deceleration(x, u), a) for x, u, a in rows]
+        central = Six(*_least_squares(middle), 1.0, 1.0, 1.0)
+    if _usual_miss(middle, central) < missed / 10:
+        return central, True, True
+    return force, True, False
+
+
+def _usual_miss(rows: Sequence[Row], six: Six, bounded: bool = True) -> float:
+    """The median of the relative deviations of rows from a fit; infinite if there is no fit."""
+    miss = median(abs(six.deceleration(x, u, bounded) / a - 1) for x, u, a in rows)
+    return miss if math.isfinite(miss) else math.inf
 
 
 def _uncertainty(table: Table) -> float:
@@ -76,8 +115,8 @@ def _middle(values: Sequence[float]) -> float:
     return math.fsum(kept) / len(kept) if kept else math.nan
 
 
-def _least_squares(rows: Sequence[Row]) -> tuple[float, float, float]:
-    """G, H and D with a = (G u² + H)(D x - x²), constant beyond D/2, by least squares.
+def _least_squares(rows: Sequence[Row], bounded: bool = True) -> tuple[float, float, float]:
+    """G, H and D with a = (G u² + H)(D x - x²), constant beyond D/2 if `bounded`, by least squares.
 
     A wrong number spoils a third of the rows; the fit to the others misses least of all rows, and
     is repeated without those that it misses.
@@ -88,16 +127,23 @@ def _least_squares(rows: Sequence[Row]) -> tuple[float, float, float]:
     X, U, A = (max(abs(row[i]) for row in rows) or 1.0 for i in range(3))
     data = [(x / X, (u / U) ** 2, a / A) for x, u, a in rows]
     thirds = [data[i::3] for i in range(3)] if len(data) >= 12 else []
-    fits = [six for part in (data, *thirds) if (six := _three_numbers(part)) is not None]
+    # Where most rows are beyond the radius, only the first ones tell the sphere.
+    shallow = [data[: len(data) // n] for n in (2, 4, 8, 16) if len(data) // n >= 8]
+    fits = [
+        six
+        for part in (data, *thirds, *shallow)
+        if (six := _three_numbers(part, None, bounded)) is not None
+    ]
     if not fits:
         return nan
-    best = min(fits, key=lambda six: median(_misses(data, six)))
+    best = min(fits, key=lambda six: median(_misses(data, six, bounded)))
     for _ in range(3):
-        best = _three_numbers(_without_outliers(data, best), best) or best
+        kept = _without_outliers(data, best, bounded)
+        best = _three_numbers(kept, best, bounded) or best
     return best.G * A / (U * X) ** 2, best.H * A / X**2, best.D * X
 
 
-def _three_numbers(data: Sequence[Row], start: Six | None = None) -> Six | None:
+def _three_numbers(data: Sequence[Row], start: Six | None, bounded: bool) -> Six | None:
     """G, H and D of scaled rows (x, u², a) by Gauss-Newton; None if they do not tell."""
     guess = start[:3] if start is not None else _linear(data)
     if guess is None:
@@ -107,7 +153,7 @@ def _three_numbers(data: Sequence[Row], start: Six | None = None) -> Six | None:
         matrix = [[0.0] * 3 for _ in range(3)]
         right = [0.0] * 3
         for x, w, a in data:
-            inside = x < D / 2
+            inside = x < D / 2 or not bounded
             area = D * x - x * x if inside else D * D / 4
             gradient = (w * area, area, (G * w + H) * (x if inside else D / 2))
             rest = a - (G * w + H) * area
@@ -127,17 +173,17 @@ def _three_numbers(data: Sequence[Row], start: Six | None = None) -> Six | None:
     return Six(G, H, D, 1.0, 1.0, 1.0)
 
 
-def _misses(data: Sequence[Row], six: Six) -> list[float]:
+def _misses(data: Sequence[Row], six: Six, bounded: bool) -> list[float]:
     """The relative deviation of each row from a fit."""
     return [
-        abs(six.deceleration(x, math.sqrt(max(w, 0.0))) - a) / max(abs(a), 1e-6)
+        abs(six.deceleration(x, math.sqrt(max(w, 0.0)), bounded) - a) / max(abs(a), 1e-6)
         for x, w, a in data
     ]  # fmt: skip
 
 
-def _without_outliers(data: list[Row], six: Six) -> list[Row]:
+def _without_outliers(data: list[Row], six: Six, bounded: bool) -> list[Row]:
     """The rows whose deviation from a fit is not far above the usual one."""
-    off = _misses(data, six)
+    off = _misses(data, six, bounded)
     most = 20 * median(off) + 1e-13
     kept = [row for row, deviation in zip(data, off, strict=True) if deviation <= most]
     return kept if len(kept) >= max(4, 0.7 * len(data)) else data

@@ -9,14 +9,15 @@ from xml.etree import ElementTree as ET
 
 from reference.units import written
 from replication import page
+from replication.check.delimited import column_at, where
 from replication.check.examination import NO_FAULT, Difference, Examination
-from replication.check.table import address
+from replication.check.table import Line, Table, address
 from replication.check.words import COLUMNS, INPUTS, count, is_unit, unit_text
 from replication.check.workbook import Check
 from replication.reading import printable
 from replication.text import aligned, quantity, with_unit
 from spreadsheets.evaluate import Evaluator, column_letters
-from spreadsheets.foreign import Position
+from spreadsheets.foreign import Book, Position
 
 _MOST = 12
 """How many entries of a list the text shows: with more of one kind, the first matter most."""
@@ -32,14 +33,14 @@ Record = Mapping[str, Any]
 
 def check_record(check: Check) -> dict[str, Any]:
     """The document of `coldspray check --json`; a number beyond doubles is null."""
-    exams, first = check.examinations, check.first
+    exams, first, book = check.examinations, check.first, check.evaluator.book
     return {
-        "file": str(check.evaluator.book.path),
+        "file": str(book.path),
         "verdict": _verdict(check),
         "clean": first is None,
         "summary": dict(Counter(d.kind for d in check.differences)),
-        "first": first and _finite(first.record()),
-        "differences": [_finite(d.record()) for d in check.differences],
+        "first": first and _entry(first, book),
+        "differences": [_entry(d, book) for d in check.differences],
         "taken": [_taken(exam) for exam in exams],
         "final_depths": [_finite(_depth(exam)) for exam in exams],
         "claims": [
@@ -48,11 +49,18 @@ def check_record(check: Check) -> dict[str, Any]:
                 "where": str(number.claim.place), "printed": number.claim.shown,
                 "unit": number.claim.unit, "interval": str(number.claim.interval()),
                 "cell": address(number.place, True), "found": number.found, "met": number.met,
+                **_line_of(book, number.place),
             }
             for number in check.numbers
         ],
-        "notes": [*check.evaluator.book.notes, *check.others],
+        "notes": [*book.notes, *check.others],
     }  # fmt: skip
+
+
+def _entry(difference: Difference, book: Book) -> Record:
+    """The entry of a difference; of a text file it has the line and the column, too, by `where`."""
+    entry = _finite(difference.record())
+    return {**entry, "where": where(book, difference.place)} if book.is_text else entry
 
 
 def _finite(record: Record) -> Record:
@@ -77,6 +85,8 @@ def _verdict(check: Check) -> str:
         left = (places | lines) & check.evaluator.reasons.keys()
         if left:
             numbers += f"; {len(left):,} of its formulas not computed"
+        if check.evaluator.book.is_text:
+            return f"Clean{extent}: the report's sheet{inputs}, row by row, to its digits."
         return f"Clean{extent}: the report's sheet{inputs}, cell by cell{numbers}."
     if not causes:
         return f"The sheet is right, with {count(len(faults), 'number')} beside it not as printed."
@@ -99,7 +109,13 @@ def _wrong_depth(exam: Examination) -> tuple[float, float] | None:
     reached, right = exam.final_depth, exam.right_depth
     if reached is None or right is None or not exam.ends:
         return None
-    return None if abs(reached - right) <= 1e-9 * abs(right) else (reached, right)
+    line = exam.table.lines["depth"]
+    close = 1e-9 * abs(right)
+    if exam.fitted.probe is None:  # as exactly as the digits of numbers tell
+        last = exam.table.number("depth", exam.table.steps) or 0.0
+        close += exam.fitted.digits * abs(right)
+        close += line.rounding(last) * 10.0 ** exam.units.get("depth", 0.0)
+    return None if abs(reached - right) <= close else (reached, right)
 
 
 def _depth(exam: Examination) -> Record:
@@ -123,7 +139,7 @@ def _taken(exam: Examination) -> Record:
         "steps": table.steps,
         "scheme": exam.scheme,
         "columns": {
-            role: {"cells": table.area(role), "head": line.head,
+            role: {"cells": table.area(role), "head": line.head, **_lines_of(table, line),
                    "unit": _unit(role, exam.units.get(role, 0.0)),
                    "by": "--map" if line.given else "head" if role in line.roles else "values"}
             for role in COLUMNS if (line := table.lines.get(role)) is not None
@@ -131,11 +147,27 @@ def _taken(exam: Examination) -> Record:
         "inputs": {
             role: {"value": entry.si, "unit": INPUTS[role],
                    "cell": address(entry.place, True) if entry.place else None,
-                   "label": entry.label or None, "by": entry.how}
+                   "label": entry.label or None, "by": entry.how,
+                   **_line_of(table.evaluator.book, entry.place)}
             for role in INPUTS
             if (entry := exam.inputs.get(role)) is not None
         },
     }  # fmt: skip
+
+
+def _line_of(book: Book, cell: Position | None) -> dict[str, str]:
+    """Where a cell of a text file stands: its line and column."""
+    return {"where": where(book, cell)} if book.is_text and cell is not None else {}
+
+
+def _lines_of(table: Table, line: Line) -> dict[str, str]:
+    """Where a column of a text file stands: the lines and the column."""
+    book = table.evaluator.book
+    if not book.is_text:
+        return {}
+    rows = table.rows
+    stretch = f"lines {rows[min(rows)]} to {rows[table.steps]}"
+    return {"where": f"{column_at(book, line.number)}, {stretch}"}
 
 
 def _unit(role: str, power: float) -> str:
@@ -214,7 +246,7 @@ def _lines(record: Record) -> Iterator[str]:
     rows = [
         (
             f"  {with_unit(claim['printed'], claim['unit'])}",
-            safe(claim["cell"], 40),
+            safe(claim.get("where", claim["cell"]), 60),
             with_unit(f"{claim['found']:.7g}", claim["unit"]),
             "as printed" if claim["met"] else f"not in {claim['interval']}",
             claim["title"],
@@ -234,10 +266,12 @@ def _table(taken: Record) -> Iterator[str]:
     sheet = repr(safe(taken["sheet"], 40))
     yield f"  sheet {sheet}: {taken['steps']} steps {taken['direction']}, {named}"
     entries = [
-        (name, column["cells"], f"in {column['unit']}", _known_by(column["by"], column["head"]))
+        (name, safe(column.get("where", column["cells"]), 60), f"in {column['unit']}",
+         _known_by(column["by"], column["head"]))
         for name, column in taken["columns"].items()
     ] + [
-        (name, safe(entry["cell"] or "-", 40), with_unit(f"{entry['value']:.10g}", entry["unit"]),
+        (name, safe(entry.get("where", entry["cell"]) or "-", 60),
+         with_unit(f"{entry['value']:.10g}", entry["unit"]),
          _known_by(entry["by"], entry["label"]))
         for name, entry in taken["inputs"].items()
     ]  # fmt: skip
@@ -269,9 +303,19 @@ def _difference(difference: Record) -> Iterator[str]:
     yield _wrapped(safe(difference["explanation"], 400), "    ")
 
 
+def _place(difference: Record) -> str:
+    """The cell of a difference, or in a text file its line and column."""
+    if "where" in difference:
+        return safe(difference["where"])
+    return f"{safe(difference['sheet'], 40)}!{difference['cell']}"
+
+
 def _where(difference: Record) -> str:
+    if "where" in difference:
+        more = f" and {difference['count'] - 1} more" if difference["count"] > 1 else ""
+        return _place(difference) + more
     more = f" ({difference['cells']})" if difference["count"] > 1 else ""
-    return f"{safe(difference['sheet'], 40)}!{difference['cell']}{more}"
+    return f"{_place(difference)}{more}"
 
 
 def _wrapped(line: str, indent: str) -> str:
@@ -384,7 +428,7 @@ def junit(record: Record, kinds: Sequence[str]) -> str:
     for kind in kinds:
         case = ET.SubElement(suite, "testcase", classname="coldspray", name=kind)
         lines = [
-            f"{safe(d['sheet'], 40)}!{d['cell']}: {safe(d['explanation'], 300)}"
+            f"{_place(d)}: {safe(d['explanation'], 300)}"
             for d in record["differences"]
             if d["kind"] == kind
         ]

@@ -103,10 +103,10 @@ class Six(NamedTuple):
     e: float
     V: float
 
-    def deceleration(self, x: float, u: float) -> float:
-        """The deceleration at a depth and a velocity."""
+    def deceleration(self, x: float, u: float, bounded: bool = True) -> float:
+        """The deceleration at depth and velocity; if not `bounded`, no pi R² beyond D/2."""
         half = self.D / 2
-        area = self.D * x - x * x if x < half else half * half
+        area = self.D * x - x * x if x < half or not bounded else half * half
         return (self.G * u * u + self.H) * area
 
 

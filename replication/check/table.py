@@ -158,9 +158,20 @@ class Line:
         return sum(value > 0 for value in self.values.values()) > 0.8 * len(self.values)
 
     @cached_property
+    def largest_change(self) -> float:
+        """The largest difference between neighbours."""
+        ordered = [self.values[index] for index in sorted(self.values)]
+        return max((abs(b - a) for a, b in pairwise(ordered)), default=0.0)
+
+    @cached_property
     def _digits(self) -> tuple[int, int]:
-        """The most digits of a typed number, and the power of ten of the last digit."""
-        counts = [digits_of(value) for value in self.values.values() if value]
+        """The most digits of a typed or printed number, and the power of ten of the last digit."""
+        printed = self.evaluator.book.digits.get(self.sheet, {})
+        counts = [
+            printed.get(self.place(i)[1:]) or digits_of(value)
+            for i, value in self.values.items()
+            if value
+        ]
         return max((n for n, _ in counts), default=15), min((p for _, p in counts), default=-300)
 
     def rounding(self, value: float) -> float:
@@ -169,7 +180,7 @@ class Line:
             return 1e-14 * abs(value)
         digits, last = self._digits
         if digits >= 15:
-            return 1e-15 * abs(value)
+            return max(1e-15 * abs(value), 0.5 * 10.0**last if last > -300 else 0.0)
         least = 10.0 ** (math.floor(math.log10(abs(value))) - max(digits, 3) + 1)
         return 0.5 * max(least, 10.0**last if last > -300 else 0.0)
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from reference.units import same_dimension
+from replication.check.delimited import read_any
 from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.judge import examine
 from replication.check.labels import cell_names, label_of
@@ -27,7 +28,7 @@ from replication.check.words import (
 from replication.reading import place as named
 from replication.reading import quoted
 from spreadsheets.evaluate import Area, Error, Evaluator, Shape, parse, shape_key
-from spreadsheets.foreign import Book, Position, read
+from spreadsheets.foreign import Book, Position
 
 _MOST_TABLES = 40
 """So many tables of one workbook are judged."""
@@ -79,7 +80,7 @@ def check(path: Path, given: Mapping[str, str] | None = None) -> Check:
     WorkbookError for a file that cannot be read; ValueError, saying what would help, if there is no
     table of the scheme or if all tables follow another model.
     """
-    book = read(path)
+    book = read_any(path)
     with named(str(path)):
         return check_book(book, given or {})
 
@@ -418,6 +419,9 @@ def _area(name: str, where: str, evaluator: Evaluator) -> Area:
 def _nothing(evaluator: Evaluator) -> str:
     """Return the message that there is no table, with the likely reason and what to do."""
     nothing, values = "no table of depth and velocity is found", evaluator.values
+    if evaluator.book.is_text:
+        such = "heads such as time [ns], velocity [m/s], depth [um]"
+        return f"{nothing}: give columns of these in steps of a constant time, with {such}"
     texts = [value for value in values.values() if type(value) is str]
     typed = sum(any(map(str.isdigit, t)) and not any(map(str.isalpha, t)) for t in texts)
     if typed > max(100, len(evaluator.formulas)):

@@ -6,14 +6,14 @@ from functools import partial
 from replication.cli.differences import add_files, check_files, put_differences
 from replication.cli.options import path
 
-HELP = "check somebody's own workbook of the report's sheet"
+HELP = "check somebody's own workbook, or CSV, of the report's sheet"
 EXAMPLE = "coldspray check mine.xlsx --map 'depth=Sheet1!D8:D139'"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "file", metavar="FILE", type=path,
-        help="an .xlsx file; or .xlsm, .xls, .xlsb, .ods; or the rows that a program wrote, .csv",
+        help="an .xlsx file; or .xlsm, .xls, .xlsb, .ods; or rows as text: .csv, .tsv, .txt, .dat",
     )  # fmt: skip
     parser.add_argument(
         "--map", metavar="NAME=RANGE", action="append", default=[],

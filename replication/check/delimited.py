@@ -1,0 +1,246 @@
+"""Read a table that a program wrote as text (CSV and the like) as a workbook of one sheet.
+
+Row and column of a cell are the line of the file and the column in it. Separators are commas,
+semicolons, tabs or blanks, whichever gives most lines that are nothing but numbers; decimal marks
+are points or commas. Lines that begin with a mark of comments are skipped, but for heads right
+above the numbers. The digits of each number are kept as they are printed: they are its uncertainty.
+"""
+
+import csv
+import math
+import re
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path
+
+from replication.check.words import is_unit
+from replication.reading import place as named
+from spreadsheets.foreign import MAX_CELLS, MAX_FILE, MAX_TEXT, Book, Cell, Position, Value, read
+
+SUFFIXES = frozenset({".csv", ".tsv", ".tab", ".txt", ".dat"})
+_WORKBOOKS = (b"PK\x03\x04", bytes.fromhex("D0CF11E0A1B11AE1"))
+"""How workbooks begin, by whatever name."""
+_SEPARATORS = ("\t", ";", ",", "|", " ")
+_COMMENTS = ("#", "%", "//")
+_ABSENT = frozenset({"", "-", "nan", "na", "n/a", "none", "null"})
+"""How programs write that there is no number."""
+_NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[EeDd][-+]?\d{1,3})?")
+_GROUPED = re.compile(r"[-+]?\d{1,3}(?:(?P<mark>[.,])\d{3})(?:(?P=mark)\d{3})*(?!(?P=mark))[.,]\d*")
+"""A number with marks of thousands, and another mark before its decimals."""
+_HEAD = re.compile(r"[^\s\[(]+\s*(?:\[[^\]]*\]|\([^)]*\))?")
+"""A head among others that blanks separate: a name and maybe a unit in brackets."""
+_LEAST = 4
+"""The fewest rows of numbers."""
+
+_Rows = dict[int, list[str]]
+"""The cells of the lines that have some, by the number of the line."""
+
+
+def read_any(path: Path) -> Book:
+    """Read a workbook, or by its name a text file. Raises OSError, WorkbookError or ValueError."""
+    if path.suffix.lower() not in SUFFIXES or not path.is_file():
+        return read(path)
+    with path.open("rb") as file:
+        content = file.read(MAX_FILE + 1)
+    if content.startswith(_WORKBOOKS):
+        return read(path)
+    with named(str(path)):
+        if len(content) > MAX_FILE:
+            raise ValueError(f"has more than {MAX_FILE >> 20} MB")
+        return _book(path, _decoded(content))
+
+
+def where(book: Book, place: Position) -> str:
+    """Where a cell of a text file stands."""
+    return f"line {place[1]}, {column_at(book, place[2])}"
+
+
+def column_at(book: Book, column: int) -> str:
+    """The column of a text file by its head, or by its number if it has none."""
+    head = (book.heads or {}).get(column)
+    return f"column {head!r}" if head else f"column {column}"
+
+
+def _decoded(content: bytes) -> str:
+    """The text of a file: UTF-8, UTF-16 with its mark, or as Windows writes it in the West."""
+    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        encoding = "utf-16"
+    elif b"\0" in content:
+        raise ValueError("is not text: give rows of numbers as CSV")
+    else:
+        encoding = "utf-8-sig"
+    try:
+        return content.decode(encoding)
+    except UnicodeDecodeError as error:
+        if encoding == "utf-16":
+            raise ValueError("is not text: give rows of numbers as CSV in UTF-8") from error
+        return content.decode("cp1252", errors="replace")
+
+
+def _book(path: Path, text: str) -> Book:
+    lines = text.splitlines()
+    rows, separator = _split(lines)
+    numeric = [line for line, cells in rows.items() if _is_row(cells)]
+    if len(numeric) < _LEAST:
+        some = f"only {len(numeric)}" if numeric else "none"
+        raise ValueError(f"holds no table: of its lines {some} consist of two or more numbers")
+    width = Counter(len(rows[line]) for line in numeric).most_common(1)[0][0]
+    first = next(line for line in numeric if len(rows[line]) == width)
+    _add_heads(rows, lines, first, width, separator)
+    cells: dict[tuple[int, int], Cell] = {}
+    digits: dict[tuple[int, int], tuple[int, int]] = {}
+    for line, texts in rows.items():
+        for column, given in enumerate(texts, 1):
+            if given.lower() in _ABSENT:
+                continue
+            value: Value | None = _number(given)
+            if value is None:
+                value = given[:MAX_TEXT]
+            else:
+                digits[line, column] = _digits(given)
+            cells[line, column] = Cell(None, value)
+        if len(cells) > MAX_CELLS:
+            raise ValueError(f"holds more than {MAX_CELLS:,} numbers")
+    heads = {column: head for column in range(1, width + 1)
+             if (head := _head_above(cells, first, column))}  # fmt: skip
+    return Book(path, {path.stem: cells}, {}, digits={path.stem: digits}, heads=heads)
+
+
+# ---- lines and cells
+
+
+def _split(lines: Sequence[str]) -> tuple[_Rows, str]:
+    """The rows of cells by the separator that gives most lines of numbers."""
+    stated = re.fullmatch(r"\s*sep=(.)\s*", lines[0], re.IGNORECASE) if lines else None
+    candidates = (stated[1],) if stated else _SEPARATORS
+    best: tuple[tuple[int, int], _Rows, str] | None = None
+    problem: ValueError | None = None
+    for separator in candidates:
+        try:
+            rows = dict(_rows(lines, separator))
+        except ValueError as error:
+            problem = problem or error
+            continue
+        counts = [len(cells) for cells in rows.values() if _is_row(cells)]
+        score = len(counts), sum(counts)
+        if best is None or score > best[0]:
+            best = score, rows, separator
+    if best is None:
+        assert problem is not None
+        raise problem
+    _, rows, separator = best
+    if stated:
+        rows.pop(1, None)
+    return rows, separator
+
+
+def _rows(lines: Sequence[str], separator: str) -> Iterator[tuple[int, list[str]]]:
+    """The cells of each line that is not blank and no comment."""
+    kept = ("" if line.lstrip().startswith(_COMMENTS) else line for line in lines)
+    if separator == " ":
+        kept = (line.expandtabs(1).strip() for line in kept)
+    reader = csv.reader(kept, delimiter=separator, skipinitialspace=True)
+    try:
+        for row in reader:
+            cells = [cell.strip() for cell in row]
+            while cells and not cells[-1]:
+                cells.pop()
+            if cells:
+                yield reader.line_num, cells
+    except csv.Error as error:
+        raise ValueError(f"line {reader.line_num} is not CSV: {error}") from error
+
+
+def _is_row(cells: Sequence[str]) -> bool:
+    """Whether a line is a row of two or more numbers, some of which may be absent."""
+    numbers = sum(_number(cell) is not None for cell in cells)
+    absent = sum(cell.lower() in _ABSENT for cell in cells)
+    return numbers > 1 and numbers + absent == len(cells)
+
+
+def _number(text: str) -> float | None:
+    """The number that a cell holds, or None.
+
+    >>> _number("1,5e-3"), _number("1.234,5"), _number("1,234.5"), _number("-2.D+01"), _number("v1")
+    (0.0015, 1234.5, 1234.5, -20.0, None)
+    """
+    plain = _plain(text)
+    if not _NUMBER.fullmatch(plain):
+        return None
+    value = float(re.sub("[Dd]", "e", plain.replace(",", ".")))
+    return value if math.isfinite(value) else None
+
+
+def _plain(text: str) -> str:
+    """The text of a number without marks of thousands, and with an ordinary minus."""
+    plain = re.sub("[\u00a0\u202f']", "", text.strip()).replace("\u2212", "-")
+    if match := _GROUPED.match(plain):
+        plain = plain.replace(match["mark"], "")
+    return plain
+
+
+def _digits(text: str) -> tuple[int, int]:
+    """The number of digits of a number as it is printed, and the power of ten of the last one.
+
+    >>> _digits("500.00"), _digits("0.050"), _digits("1.20e-05"), _digits("3000")
+    ((5, -2), (2, -3), (3, -7), (4, 0))
+    """
+    mantissa, *exponent = re.split("[EeDd]", _plain(text).replace(",", "."))
+    whole, _, decimals = mantissa.lstrip("+-").partition(".")
+    power = int(exponent[0]) if exponent else 0
+    return len((whole + decimals).lstrip("0")), power - len(decimals)
+
+
+# ---- heads
+
+
+def _add_heads(rows: _Rows, lines: Sequence[str], first: int, width: int, separator: str) -> None:
+    """Put the heads above their columns, where they stand in a comment or are shifted."""
+    above = [line for line in rows if line < first]
+    if separator == " ":
+        for line in above:
+            heads = _HEAD.findall(lines[line - 1])
+            if len(heads) in (width, width - 1):
+                rows[line] = heads
+    if not above or max(above) < first - 1:
+        _take_comment(rows, lines, first, width, separator)
+    head = max((line for line in rows if line < first), default=None)
+    counted = [_number(cells[0]) for line, cells in rows.items() if line >= first][:_LEAST]
+    if head is not None and len(rows[head]) == width - 1 and _counts(counted):
+        rows[head] = ["", *rows[head]]  # row numbers mostly have no head
+
+
+def _take_comment(
+    rows: _Rows, lines: Sequence[str], first: int, width: int, separator: str
+) -> None:
+    """Take the heads from the comment above the numbers, if it has as many words as columns."""
+    for line in range(first - 1, 0, -1):
+        text = lines[line - 1].strip()
+        if text and not text.startswith(_COMMENTS):
+            return
+        bare = text.lstrip("#%/").strip()
+        heads = [cell.strip() for cell in next(csv.reader([bare], delimiter=separator), [])]
+        if separator == " " or len(heads) < 2:
+            heads = _HEAD.findall(bare)
+        if len(heads) == width and all(_number(head) is None for head in heads):
+            rows[line] = heads
+            return
+
+
+def _counts(values: Sequence[float | None]) -> bool:
+    """Whether some numbers count the rows."""
+    known = [value for value in values if value is not None]
+    return all(b - a == 1 for a, b in pairwise(known))
+
+
+def _head_above(cells: Mapping[tuple[int, int], Cell], first: int, column: int) -> str:
+    """The farthest text right above the numbers of a column; a unit may stand below it."""
+    texts = []
+    for line in range(first - 1, max(0, first - 6), -1):
+        cell = cells.get((line, column))
+        if cell is not None and isinstance(cell.value, str):
+            texts.append(cell.value)
+        elif texts:
+            break
+    return next((text for text in texts if not is_unit(text)), "")
