@@ -149,7 +149,6 @@ _BLANK = Cell(None, None)
 def read(path: Path) -> Book:
     """Read an .xlsx or .xlsm file; an .xls, .xlsb or .ods file by way of LibreOffice; or a .csv.
 
-
     Raises WorkbookError, naming the file, if it is not a workbook, is damaged, or exceeds a limit
     of this module; OSError if it cannot be opened.
     """
