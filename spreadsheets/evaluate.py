@@ -349,15 +349,20 @@ class _Parser:
             raise NotComputedError(f"it has more than {MAX_SIZE:,} operations")
 
     def prefix(self) -> Run:
-        negative, signs = False, 0
+        first = self.at
         while self.tokens[self.at][0] == "sign" and self.tokens[self.at][1] in "-+@":
-            negative ^= self.tokens[self.at][1] == "-"
-            signs += self.tokens[self.at][1] != "@"
             self.at += 1
+        signs = [sign for _, sign in self.tokens[first : self.at]]
         run = self.operand()
+        if "@" in signs:
+            run = self.crossed(run)
         while self.next("%"):
             run = _binary("/", self.crossed(run), _constant(100.0))
-        return _negative(self.crossed(run)) if negative else run
+        if "-" not in signs:
+            return run
+        # Two minus signs make a number of a text or a truth value.
+        run = self.crossed(run)
+        return _negative(run) if signs.count("-") % 2 else _number_of(run)
 
     def operand(self) -> Run:
         kind, text = self.tokens[self.at]
@@ -585,6 +590,10 @@ def _negative(run: Run) -> Run:
     return lambda at: -number(run(at), at)
 
 
+def _number_of(run: Run) -> Run:
+    return lambda at: number(run(at), at)
+
+
 def _binary(sign: str, left: Run, right: Run) -> Run:
     if sign == "&":
         return lambda at: _joined(scalar(left(at), at), scalar(right(at), at))
@@ -620,7 +629,7 @@ def as_text(value: Scalar) -> str:
         return ""
     if isinstance(value, bool):
         return str(value).upper()
-    return f"{value:.15g}" if isinstance(value, float) else value
+    return f"{value:.15G}" if isinstance(value, float) else value
 
 
 def _order(value: Scalar) -> tuple[int, float | str]:

@@ -74,37 +74,44 @@ def _mod(x: float, y: float) -> float:
     return 0.0 if min(abs(rest), abs(y - rest)) <= 1e-14 * abs(x) else rest
 
 
+def _to_fifteen_digits(x: float) -> float:
+    """The number as programs show it: what is whole, or half, to fifteen digits counts as such."""
+    return float(f"{x:.15g}") if abs(x) < 1e15 else x
+
+
 def _away(x: float) -> float:
-    """Round half away from zero; what is half to fifteen digits counts as half."""
-    size = math.floor(abs(x) * (1 + 1e-15) + 0.5)
-    return math.copysign(size, x) if size else 0.0
+    """Round half away from zero."""
+    size = _to_fifteen_digits(abs(x))
+    whole = math.floor(size)
+    return math.copysign(whole + (size - whole >= 0.5), x)
 
 
 def _rounded(x: float, digits: float = 0.0) -> float:
     places = max(-300, min(300, int(digits)))
-    if places > 300 or x == 0:
+    scaled = x * 10.0**places
+    if x == 0 or abs(scaled) >= 2.0**53:  # no such double has a fraction
         return x
-    return float(f"{_away(x * 10.0**places):.0f}e{-places}") if abs(x) < 1e15 else x
+    return float(f"{_away(scaled):.0f}e{-places}")
 
 
 def _truncated(x: float, digits: float = 0.0) -> float:
     scale = 10.0 ** max(-300, min(300, int(digits)))
-    return math.trunc(x * scale * (1 + 1e-15)) / scale
+    return math.trunc(_to_fifteen_digits(x * scale)) / scale
 
 
 def _up(x: float, digits: float = 0.0) -> float:
     scale = 10.0 ** max(-300, min(300, int(digits)))
-    return math.copysign(math.ceil(abs(x) * scale * (1 - 1e-15)), x) / scale
+    return math.copysign(math.ceil(_to_fifteen_digits(abs(x) * scale)), x) / scale
 
 
 def _ceiling(x: float, step: float = 1.0) -> float:
-    return math.ceil(x / step * (1 - 1e-15)) * step if step else 0.0
+    return math.ceil(_to_fifteen_digits(x / step)) * step if step else 0.0
 
 
 def _floor(x: float, step: float = 1.0) -> float:
     if step == 0:
         raise CellError("#DIV/0!")
-    return math.floor(x / step * (1 + 1e-15)) * step
+    return math.floor(_to_fifteen_digits(x / step)) * step
 
 
 def _sign(x: float) -> float:
@@ -120,11 +127,11 @@ def _pi() -> float:
 
 
 def _int(x: float) -> float:
-    return float(math.floor(x * (1 + math.copysign(1e-15, x))) if abs(x) < 1e15 else x)
+    return float(math.floor(_to_fifteen_digits(x)))
 
 
 def _atan2(x: float, y: float) -> float:
-    return math.atan2(y, x)
+    return math.atan2(y, x) if x or y else _fail("#DIV/0!")
 
 
 NUMERIC: dict[str, tuple[Callable[..., float], int, int]] = {
@@ -575,6 +582,8 @@ def _vlookup(name: str, arguments: Arguments) -> Run:
         index = _found(wanted, _line(searched, at), int(near))
         if number_of < 1:
             raise CellError("#VALUE!")
+        if number_of > (area.right - area.left if down else area.bottom - area.top) + 1:
+            raise CellError("#REF!")
         if down:
             return One(area.sheet, area.top + index, area.left + number_of - 1)
         return One(area.sheet, area.top + number_of - 1, area.left + index)
