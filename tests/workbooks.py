@@ -27,13 +27,19 @@ def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
     }
 
 
-def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
-    """Return a zip file with each part changed; a part that becomes empty is left out."""
+def rewritten(
+    content: bytes, change: Callable[[str, bytes], bytes], *, compressed: bool = False
+) -> bytes:
+    """Return a zip file with each part changed; a part that becomes empty is left out.
+
+    To compress it takes most of the time.
+    """
+    method = zipfile.ZIP_DEFLATED if compressed else zipfile.ZIP_STORED
     buffer = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as before, zipfile.ZipFile(buffer, "w") as after:
         for info in before.infolist():
             if part := change(info.filename, before.read(info)):
-                after.writestr(info, part, zipfile.ZIP_STORED)  # to compress takes most of the time
+                after.writestr(info, part, method)
     return buffer.getvalue()
 
 
