@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from replication.workbook import Workbook
 from spreadsheets import evaluate
-from spreadsheets.engines import Formualizer, Value, address
+from spreadsheets.engines import Formualizer, address
 from spreadsheets.evaluate import Area, Error, Evaluator, Scalar, parse, shape_key
 from spreadsheets.foreign import Book, Cell, Position, read
 
@@ -17,8 +17,11 @@ D9 = (9, 4)
 """Where formulas stand unless a test says otherwise."""
 
 
+Content = Cell | float | str | bool
+
+
 def evaluated(
-    cells: Mapping[tuple[int, int], Cell | float | str | bool],
+    cells: Mapping[tuple[int, int], Content],
     names: Mapping[str, str] | None = None,
 ) -> Evaluator:
     """The evaluated book with these cells in its sheet S; texts that begin with = are formulas."""
@@ -33,7 +36,7 @@ def evaluated(
     return Evaluator(Book(Path("book.xlsx"), {"S": written}, names or {}))
 
 
-TYPED: Mapping[tuple[int, int], Cell | float | str | bool] = {
+TYPED: Mapping[tuple[int, int], Content] = {
     # A1 to A9 are 1 to 9, B1 to B4 are of other kinds, C9 to E9 hold 20, the formula, and 40.
     **{(row, 1): float(row) for row in range(1, 10)},
     (1, 2): "Text", (2, 2): True, (3, 2): Cell(None, "#N/A", error=True), (4, 2): "#N/A",
@@ -200,6 +203,7 @@ def test_stored_errors_stay_errors() -> None:
 
 def test_every_cell_of_an_array_formula_keeps_its_stored_value() -> None:
     area = (1, 2, 2, 2)
+    cells: dict[tuple[int, int], Content]
     cells = {(1, 2): Cell("=A1:A2*2", 2.0, array=area), (2, 2): Cell("=A1:A2*2", 4.0, array=area)}
     evaluator = evaluated({(1, 1): 5.0, (2, 1): 6.0, **cells, (3, 2): "=SUM(B1:B2)"})
     why = "it is an array formula"
@@ -233,7 +237,8 @@ def test_a_long_chain_is_evaluated_whatever_the_order_of_its_cells() -> None:
 def test_relative_references_in_a_name_start_at_the_cell_that_uses_it() -> None:
     """The file stores them as seen from A1; above the first row they go on at the last."""
     names = {"below": "S!A2", "own": "S!$A1", "above": "S!A1048576", "total": "SUM(S!$A$1:$A$3)"}
-    column = {(row, 1): 10.0 * row for row in (1, 2, 3)}
+    column: dict[tuple[int, int], Content] = {(row, 1): 10.0 * row for row in (1, 2, 3)}
+    formulas: dict[tuple[int, int], Content]
     formulas = {(2, 2): "=own", (2, 3): "=Above", (3, 3): "=below", (1, 3): 5.0, (4, 3): 6.0,
                 (9, 9): "=total+1"}  # fmt: skip
     values = evaluated({**column, **formulas}, names).values
@@ -286,6 +291,7 @@ def test_precedents_are_the_used_cells_that_a_formula_refers_to() -> None:
 
 
 def test_the_cone_of_a_cell_is_what_it_reads_up_to_where_it_stops() -> None:
+    chain: dict[tuple[int, int], Content]
     chain = {(1, 1): 1.0, (2, 1): "=A1", (3, 1): "=A2", (4, 1): "=A3", (5, 1): "=A1"}
     evaluator = evaluated(chain)
     second, third, fourth = (("S", row, 1) for row in (2, 3, 4))
@@ -446,7 +452,7 @@ def _compound(parts: st.SearchStrategy[str]) -> st.SearchStrategy[str]:
 FORMULAS = st.recursive(ATOMS, _compound, max_leaves=6).map(lambda text: f"={text}")
 
 
-def _kind(value: Value | Scalar) -> Value | Scalar:
+def _kind(value: Scalar) -> Scalar:
     """A value, where all errors are the same."""
     return "error" if isinstance(value, str) and value.startswith("#") else value
 

@@ -156,8 +156,8 @@ def test_cells_of_a_table_are_addresses(tmp_path: Path) -> None:
     # A table of another sheet is not taken for the sheet's own.
     assert sheets["Sheet2"][2, 5].formula == "=Steps[@x]+$C2"
     # A column is its cells, without head and total.
-    columns = [Area("Sheet1", 2, 1, 3, 1), Area("Sheet1", 2, 3, 3, 3)]
-    assert evaluator.areas(("Sheet2", 1, 1)) == columns
+    areas = [Area("Sheet1", 2, 1, 3, 1), Area("Sheet1", 2, 3, 3, 3)]
+    assert evaluator.areas(("Sheet2", 1, 1)) == areas
     assert evaluator.values["Sheet2", 1, 1] == 3.0
 
 
