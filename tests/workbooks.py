@@ -27,13 +27,18 @@ def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
     }
 
 
-def rewritten(content: bytes, change: Callable[[str, bytes], bytes]) -> bytes:
-    """Return a zip file with each part changed; a part that becomes empty is left out."""
+def rewritten(
+    content: bytes, change: Callable[[str, bytes], bytes], compression: int | None = None
+) -> bytes:
+    """Return a zip file with each part changed; a part that becomes empty is left out.
+
+    `compression` is that of all parts, by default as it was: to compress takes most of the time.
+    """
     buffer = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as before, zipfile.ZipFile(buffer, "w") as after:
         for info in before.infolist():
             if part := change(info.filename, before.read(info)):
-                after.writestr(info, part, zipfile.ZIP_STORED)  # to compress takes most of the time
+                after.writestr(info, part, compression)
     return buffer.getvalue()
 
 

@@ -4,7 +4,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from reference.units import same_dimension
 from replication.check.delimited import read_any
@@ -65,12 +64,6 @@ class Check:
     def first(self) -> Difference | None:
         """The first fault in order of calculation."""
         return min(self.causes or self.faults, key=lambda d: d.rank, default=None)
-
-    def record(self) -> dict[str, Any]:
-        """The document of `coldspray check --json`."""
-        from replication.check.show import check_record
-
-        return check_record(self)
 
 
 def check(path: Path, given: Mapping[str, str] | None = None) -> Check:
