@@ -33,8 +33,8 @@ class Computation:
     """A computation: its function, and what else the ledger and the audit ask of it.
 
     `equations` are the ids of the printed equations that it evaluates. `restates` says that it only
-    repeats or counts what the report prints elsewhere. With `by_definition` it scales or selects
-    one printed number: its result can only fail if that number does.
+    repeats or counts what the report prints elsewhere. With `by_definition` it scales,
+    multiplies or selects printed numbers: its result can only fail if one of these is misprinted.
     """
 
     function: Function

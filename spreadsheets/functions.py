@@ -7,7 +7,7 @@ numbers; a number given directly may also be a text of digits or a truth value.
 import math
 from collections.abc import Callable, Iterator, Sequence
 
-from spreadsheets.evaluate import (
+from spreadsheets.scalars import (
     Area,
     CellError,
     Error,

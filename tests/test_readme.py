@@ -21,6 +21,7 @@ from running import coldspray
 from replication.audit.record import Record
 from replication.power import measured_rates
 from replication.report.document import audit_document
+from replication.report.words import MEANINGS
 from replication.text import json_text
 
 ROOT = Path(__file__).parent.parent
@@ -95,8 +96,9 @@ def test_the_rates_are_those_measured() -> None:
 
 
 def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:
-    table = re.findall(r"^\| ([a-z, ]+) \| (\d+) \| ", README, re.MULTILINE)
-    assert {verdict: int(count) for verdict, count in table} == record.summary
+    table = re.findall(r"^\| ([a-z, ]+) \| (\d+) \| (.*) \|$", README, re.MULTILINE)
+    assert {verdict: int(count) for verdict, count, _ in table} == record.summary
+    assert {verdict: meaning for verdict, _, meaning in table} == MEANINGS
     counts, text = record.counts, " ".join(README.split())
     assert (
         f"**{counts.independent} numbers could have failed by themselves and come out as printed; "
@@ -105,7 +107,7 @@ def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:
     assert (
         f"The other {counts.reproduced - counts.independent} that are reproduced tell less: "
         f"{counts.constants} are factors and powers in equations, {counts.by_definition} only "
-        "scale or pick one printed number"
+        "scale, multiply or pick printed numbers"
     ) in text
     assert f"{counts.repeats} are 0.298 rounded again, and {counts.evidence} are the cells" in text
     assert counts.remarks == 12

@@ -28,18 +28,17 @@ def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
 
 
 def rewritten(
-    content: bytes, change: Callable[[str, bytes], bytes], *, compressed: bool = False
+    content: bytes, change: Callable[[str, bytes], bytes], compression: int | None = None
 ) -> bytes:
     """Return a zip file with each part changed; a part that becomes empty is left out.
 
-    To compress it takes most of the time.
+    `compression` is that of all parts, by default as it was: to compress takes most of the time.
     """
-    method = zipfile.ZIP_DEFLATED if compressed else zipfile.ZIP_STORED
     buffer = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as before, zipfile.ZipFile(buffer, "w") as after:
         for info in before.infolist():
             if part := change(info.filename, before.read(info)):
-                after.writestr(info, part, method)
+                after.writestr(info, part, compression)
     return buffer.getvalue()
 
 

@@ -45,8 +45,8 @@ class Standing(StrEnum):
     """What a reproduced number tells: which inputs would have to be wrong for it to fail?
 
     INDEPENDENT: any of several printed numbers, or the equation that computes it. EVIDENCE: none,
-    as an input was inferred from it. BY_DEFINITION: the one printed number that it scales or
-    selects. REPEATS: those of an earlier number, which would have failed with it.
+    as an input was inferred from it. BY_DEFINITION: the printed numbers that it scales, multiplies
+    or selects. REPEATS: those of an earlier number, which would have failed with it.
     """
 
     INDEPENDENT = "independent"

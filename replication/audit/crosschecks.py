@@ -54,17 +54,22 @@ def autodyne_time(ledger: Ledger) -> CrossCheck:
     says = (
         f"Scaled to a particle of {ledger.claims['mean-diameter'].shown} µm it is "
         f"{number(scaled * 1e9, 2)} ns, {number(scaled / stop, 2)} times the time in which the "
-        "model's particle stops (beta = 5): the depth is final by then."
+        "model's particle stops (beta = 5): by the model the depth is final by then."
     )
     return CrossCheck(verdict, says)
 
 
-def brinell_ratio(ledger: Ledger) -> CrossCheck:
-    """Section 3: hardness over tensile strength, by two rules for steels and by a sheet of 304."""
+def brinell_factors(ledger: Ledger) -> tuple[Fraction, list[Fraction]]:
+    """Return hardness over tensile strength [1]: of a sheet of 304, and by two rules for steels."""
     per_kgf = to_si("gram_force/mm^2") * 1000
     sources = ledger.sources
     rules = [per_kgf / sources[name].value for name in ("hardness-rule-mpa", "hardness-rule-psi")]
-    of_304 = sources["304-brinell"].value * per_kgf / sources["304-tensile"].value
+    return sources["304-brinell"].value * per_kgf / sources["304-tensile"].value, rules
+
+
+def brinell_ratio(ledger: Ledger) -> CrossCheck:
+    """Section 3: hardness over tensile strength, by two rules for steels and by a sheet of 304."""
+    of_304, rules = brinell_factors(ledger)
     three = parse("3").interval()
     agrees = all(three.contains(Fraction(ratio)) for ratio in rules)
     verdict = Verdict.AGREES if agrees else Verdict.DIFFERS

@@ -78,7 +78,8 @@ class Repair(_Part, frozen=True):
 class FittingSlip(_Part, frozen=True):
     """What Eq. 16 gives with slips of the author's: `departures` of them, named in `name`.
 
-    `fits` says for which target densities it gives the printed number.
+    `value` is X/R at the target density taken. `fits` says for which target densities the printed
+    number is given.
     """
 
     name: str
@@ -90,10 +91,12 @@ class FittingSlip(_Part, frozen=True):
 class SlipsTried(_Part, frozen=True):
     """The family of slips that was tried for a claim, as `replication.audit.slips` explains.
 
-    It has `members`, of which `near` come within a factor of 1.5 of the printed number. `expected`
-    is how many of them would fit it by accident.
+    It has `forms`, and `members` different values, of which `near` come within a factor of 1.5 of
+    the printed number. `expected` is how many would fit it by accident, if those that come so near
+    lay there evenly on a logarithmic scale.
     """
 
+    forms: int
     members: int
     near: int
     expected: float
@@ -350,7 +353,7 @@ class Counts(_Part, frozen=True):
     from their inputs; `values` counts the different values among these, each once however often
     it is printed. Of the computed ones, only the `independent` ones could have failed by
     themselves; an input was inferred from the `evidence`, and the others are true
-    `by_definition` of one printed number, or `repeats` of an earlier one (see `Standing`).
+    `by_definition` of printed numbers, or `repeats` of an earlier one (see `Standing`).
     `failing` claims and `equations_failing` contradict the rest of the report.
     """
 

@@ -432,7 +432,8 @@ def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSlip]]:
     low, high = (float(end) for end in claim.target().ends)
     middle, seen, fitting = (low + high) / 2, set[str](), list[FittingSlip]()
     near, expected = 0, 0.0
-    for member in family(judge.ledger, x):
+    forms = family(judge.ledger, x)
+    for member in forms:
         value = _value(x, member)
         if value is None or (digits := f"{value:.12e}") in seen:
             continue
@@ -454,7 +455,7 @@ def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSlip]]:
                 )
             )
     fitting.sort(key=lambda record: (record.departures, record.name))
-    return SlipsTried(members=len(seen), near=near, expected=expected), fitting
+    return SlipsTried(forms=len(forms), members=len(seen), near=near, expected=expected), fitting
 
 
 def _inputs(judge: Judge, claim: Claim) -> Inputs:
@@ -486,13 +487,17 @@ def _value(x: Inputs, member: Member) -> float | None:
     return value if 0 < value < inf else None
 
 
+EVERY_DENSITY = "for every target density that Table A-1 admits"
+"""Said of a slip that gives the number at all of them."""
+
+
 def _fits(gives: Sequence[bool]) -> str:
     """Say for which densities a member gives the number.
 
     `gives` has whether it does for the density taken, and for the ends of both admitted ranges.
     """
     if all(gives):
-        return "for every target density that Table A-1 admits"
+        return EVERY_DENSITY
     if all(gives[1:3]):
         return "for every target density that its header, with the printed mass, admits"
     if all(gives[3:]):

@@ -15,8 +15,9 @@ from replication.check.six import EXACT, REPORT, start_of_row
 from replication.check.table import LEAST, Line, Table, behind, runs
 from replication.check.words import COLUMNS, title
 from replication.reading import quoted
-from spreadsheets.evaluate import Error, Evaluator, LiteralKey, Scalar, Shape, written
+from spreadsheets.evaluate import Evaluator, Shape, written
 from spreadsheets.foreign import Position
+from spreadsheets.scalars import Error, LiteralKey, Scalar
 
 RIGHT_HERE = "; it gives the right value here"
 """The end of a sentence about a formula or a number that is right as long as nothing changes."""

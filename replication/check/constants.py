@@ -10,8 +10,8 @@ from replication.check.responses import FAMILIES, Source, is_plain
 from replication.check.roles import Inputs
 from replication.check.table import address
 from replication.check.words import input_roles, title
-from spreadsheets.evaluate import Error, LiteralKey, Scalar
 from spreadsheets.foreign import Position
+from spreadsheets.scalars import Error, LiteralKey, Scalar
 
 _TESTED_BY = {
     "step": ("c = dt", "e = dt", "t = dt", "c = e", "t = c"), "target": ("G",), "strength": ("H",),

@@ -11,8 +11,8 @@ from replication.check.roles import Input
 from replication.check.six import Six
 from replication.check.table import Table
 from replication.check.words import COLUMNS
-from spreadsheets.evaluate import Error
 from spreadsheets.foreign import Position, Value
+from spreadsheets.scalars import Error
 
 KINDS = (
     "stale value", "typed number", "odd formula", "typed constant", "other scheme", "other input",

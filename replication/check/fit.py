@@ -24,8 +24,8 @@ from replication.check.six import (
     time_step,
 )
 from replication.check.table import Table
-from spreadsheets.evaluate import LiteralKey, Scalar
 from spreadsheets.foreign import Position
+from spreadsheets.scalars import LiteralKey, Scalar
 
 Cells = Mapping[Position, Scalar]
 Literals = Mapping[LiteralKey, float]

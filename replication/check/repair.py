@@ -7,8 +7,9 @@ is no column of the scheme any more. The workbook is then judged as it was meant
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
-from spreadsheets.evaluate import Evaluator, Reference, Scalar, Shape, column_letters, written
+from spreadsheets.evaluate import Evaluator, Reference, Shape, column_letters, written
 from spreadsheets.foreign import Book, Cell, Position
+from spreadsheets.scalars import Scalar
 
 _LEAST = 5
 """A formula must be filled into so many cells."""

@@ -14,8 +14,8 @@ from reference.units import to_si
 from replication.check.fit import Cells, Fit, Literals, numbers_with
 from replication.check.six import first_speed
 from replication.check.table import Table
-from spreadsheets.evaluate import LiteralKey
 from spreadsheets.foreign import Position
+from spreadsheets.scalars import LiteralKey
 
 FAMILIES = {
     "size": ("radius", "diameter"), "inertia": ("mass", "particle_density"),

@@ -15,8 +15,9 @@ from replication.check.table import LEAST, address
 from replication.check.taken import case_of, report_inputs
 from replication.check.words import number_in, result_of, times_too, unit_text
 from replication.text import with_unit
-from spreadsheets.evaluate import Area, Evaluator, written
+from spreadsheets.evaluate import Evaluator, written
 from spreadsheets.foreign import Position
+from spreadsheets.scalars import Area
 
 _NEAR_END = 3
 """A result that shows one of so many rows before the last was meant to show the last."""

@@ -3,8 +3,9 @@
 import math
 from collections.abc import Iterator
 
-from spreadsheets.evaluate import Error, Evaluator, Scalar
+from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Position
+from spreadsheets.scalars import Error, Scalar
 
 _DIGITS = 1e-14
 """Relative deviation above which a stored value is stale: LibreOffice saves 15 digits."""

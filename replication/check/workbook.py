@@ -4,7 +4,6 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 from reference.units import same_dimension
 from replication.check.delimited import read_any
@@ -27,8 +26,9 @@ from replication.check.words import (
 )
 from replication.reading import place as named
 from replication.reading import quoted
-from spreadsheets.evaluate import Area, Error, Evaluator, Shape, parse, shape_key
+from spreadsheets.evaluate import Evaluator, Shape, parse, shape_key
 from spreadsheets.foreign import Book, Position
+from spreadsheets.scalars import Area, Error
 
 _MOST_TABLES = 40
 """So many tables of one workbook are judged."""
@@ -65,12 +65,6 @@ class Check:
     def first(self) -> Difference | None:
         """The first fault in order of calculation."""
         return min(self.causes or self.faults, key=lambda d: d.rank, default=None)
-
-    def record(self) -> dict[str, Any]:
-        """The document of `coldspray check --json`."""
-        from replication.check.show import check_record
-
-        return check_record(self)
 
 
 def check(path: Path, given: Mapping[str, str] | None = None) -> Check:

@@ -31,7 +31,12 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "--points", metavar="N", type=whole(2, MOST_POINTS), default=101,
         help="number of times, equally spaced from impact to rest (default: %(default)s)",
     )  # fmt: skip
-    wanted.add_argument("--times", metavar="T,...", help='these times, such as "0 ns,5 ns"')
+    wanted.add_argument(
+        "--times",
+        metavar="T,...",
+        help='these times, such as "0 ns,5 ns"; close to rest, a velocity is right to '
+        "1e-14 of the impact velocity",
+    )
     add_csv_and_json(parser)
     add_quiet(parser)
     add_plot(parser, data="time, and depth or velocity")

@@ -128,7 +128,7 @@ def significant(text: str) -> int:
 def tried(record: r.ClaimRecord) -> list[Table]:
     """Return the explanations tried for a claim that fails, and the figures that judge a remark."""
     figures = [(f.means, measured(f.value, f.unit, 5) or NO_VALUE) for f in record.figures]
-    slips = [(s.name, str(s.departures), measured(s.value, "1", 4), s.fits) for s in record.slips]
+    slips = [(s.name, str(s.departures), measured(s.value, "1", 5), s.fits) for s in record.slips]
     inputs = []
     for entry in dict.fromkeys(solved.entry for solved in record.back_solved):
         by_reading = [solved for solved in record.back_solved if solved.entry == entry]
@@ -142,7 +142,9 @@ def tried(record: r.ClaimRecord) -> list[Table]:
         Table("The figures to judge it by", ("what", "computed"), figures),
         Table(changed, heads, inputs),
         repairs(record.repairs, record.id),
-        Table(_slips_title(record), ("Eq. 16 with", "slips", "gives", "fits"), slips),
+        Table(
+            _slips_title(record), ("Eq. 16 with", "slips", "X/R at 7850 kg/m^3", "prints so"), slips
+        ),
     )
     return [shown for shown in tables if shown.rows]
 
@@ -153,7 +155,8 @@ def _slips_title(record: r.ClaimRecord) -> str:
     if tried is None:
         return ""
     return (
-        f"Slips in Eq. 16 that give it: {len(record.slips)} of {tried.members:,} tried; "
+        "Slips in Eq. 16 that give it for some admitted density: "
+        f"{len(record.slips)} of {tried.members:,} different values ({tried.forms:,} forms); "
         f"{tried.expected:.1f} would by accident"
     )
 

@@ -21,20 +21,23 @@ ABOUT = (
 )
 
 MEANINGS: Mapping[Verdict, str] = {
-    Verdict.REPRODUCED: "the value computed from the inputs as printed rounds to the printed one, "
-    "for every admitted value of an input that the report does not print",
-    Verdict.WITHIN_ROUNDING: "the inputs as printed do not give it; some inputs that round to the "
-    "printed ones do",
-    Verdict.NOT_REPRODUCED: "no inputs that print like the report's give it (proven)",
-    Verdict.UNDECIDED: "neither of these could be proven",
-    Verdict.CONSISTENT: "it repeats another number of the report, or is a choice that agrees with "
-    "what is computed from it; nothing new is shown",
-    Verdict.INCONSISTENT: "it repeats another number of the report, or is a choice, and does not "
-    "agree",
-    Verdict.AGREES: "the report does not derive it; a public source prints it",
-    Verdict.DIFFERS: "the report does not derive it; the sources at hand print something else",
-    Verdict.REMARK: "words, not a number, with figures to judge them by",
-    Verdict.NOT_CHECKABLE: "it rests on data, a choice or a code that the report does not give",
+    Verdict.REPRODUCED: "the value computed from the inputs as printed rounds to the "
+    "printed number, for every admitted value of an input that the "
+    "report does not print",
+    Verdict.WITHIN_ROUNDING: "that value does not, but some inputs that round to the printed "
+    "ones give a value that does",
+    Verdict.NOT_REPRODUCED: "no such inputs exist: shown by interval arithmetic or algebra, "
+    "not by sampling",
+    Verdict.UNDECIDED: "the proven range is too wide to tell",
+    Verdict.CONSISTENT: "it repeats another number of the report, is a definition, or "
+    "agrees with what follows from it or limits it",
+    Verdict.INCONSISTENT: "it repeats another number and does not agree",
+    Verdict.AGREES: "the report does not derive it; a named public source prints it",
+    Verdict.DIFFERS: "the report does not derive it; by no reading of its digits do "
+    "the named sources print it",
+    Verdict.REMARK: "words of the report, with the figures to judge them by",
+    Verdict.NOT_CHECKABLE: "this text does not decide it: it rests on an experiment, a "
+    "choice or a code that the report does not give",
 }
 """What each verdict says."""
 
@@ -109,10 +112,10 @@ def counted(counts: r.Counts) -> str:
         f"and {counts.failing} {numbers} not follow from what the report says. "
         f"{counts.reproduced - counts.independent} more of its {counts.numbers} numbers come out, "
         f"but tell less: from {counts.evidence} the target density was inferred, "
-        f"{counts.by_definition} only scale or pick one printed number, {counts.repeats} repeat "
-        f"an earlier one, and {counts.constants} are factors and powers in its equations. Of the "
-        f"{counts.equations} equations, {counts.equations_derived} follow from earlier ones or "
-        f"from mechanics, and {counts.equations_failing} {equations} not; the others are "
+        f"{counts.by_definition} only scale, multiply or pick printed numbers, {counts.repeats} "
+        f"repeat an earlier one, and {counts.constants} are factors and powers in its equations. "
+        f"Of the {counts.equations} equations, {counts.equations_derived} follow from earlier ones "
+        f"or from mechanics, and {counts.equations_failing} {equations} not; the others are "
         "definitions, repeats, or quoted from the literature."
     )
 

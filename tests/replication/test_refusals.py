@@ -1062,36 +1062,45 @@ def test_a_text_that_once_broke_it_is_refused(
         ),
         (
             ["check", "own.xlsx", "--map", "depth=\x1b[31m"],
-            "--map depth=\\x1b[31m: give a range such as Sheet1!D8:D139; " + SHEETS,
+            "own.xlsx: --map depth=\\x1b[31m: give a range such as Sheet1!D8:D139; " + SHEETS,
         ),
         (
             ["check", "own.xlsx", "--map", "depth=A1:A" + 5000 * "9"],
-            "--map depth=A1:A" + 56 * "9" + ": give a range such as Sheet1!D8:D139; " + SHEETS,
+            "own.xlsx: --map depth=A1:A"
+            + 56 * "9"
+            + ": give a range such as Sheet1!D8:D139; "
+            + SHEETS,
         ),
         (
             ["check", "own.xlsx", "--map", "depth=A1:A1048577"],
-            "--map depth=A1:A1048577: give a range such as Sheet1!D8:D139; " + SHEETS,
+            "own.xlsx: --map depth=A1:A1048577: give a range such as Sheet1!D8:D139; " + SHEETS,
         ),
         (
             ["check", "own.xlsx", "--map", "depth=" + 5000 * "A" + "1"],
-            "--map depth=" + 60 * "A" + ": give a range such as Sheet1!D8:D139; " + SHEETS,
+            "own.xlsx: --map depth="
+            + 60 * "A"
+            + ": give a range such as Sheet1!D8:D139; "
+            + SHEETS,
         ),
-        (["check", "own.xlsx", "--map", "x\n=B4"], "--map 'x' is not a known name; " + NAMES),
+        (
+            ["check", "own.xlsx", "--map", "x\n=B4"],
+            "own.xlsx: --map 'x' is not a known name; " + NAMES,
+        ),
         (
             ["check", "own.xlsx", "--map", 5000 * "k" + "=B4"],
-            "--map '" + 40 * "k" + "' is not a known name; " + NAMES,
+            "own.xlsx: --map '" + 40 * "k" + "' is not a known name; " + NAMES,
         ),
         (
             ["check", "own.xlsx", "--map", "radius='no such'!B4"],
-            "--map radius='no such'!B4: give a range such as Sheet1!D8:D139; " + SHEETS,
+            "own.xlsx: --map radius='no such'!B4: give a range such as Sheet1!D8:D139; " + SHEETS,
         ),
         (
             ["check", "own.xlsx", "--map", "radius=B4:B3:B2"],
-            "--map radius=B4:B3:B2: give a range such as Sheet1!D8:D139; " + SHEETS,
+            "own.xlsx: --map radius=B4:B3:B2: give a range such as Sheet1!D8:D139; " + SHEETS,
         ),
         (
             ["check", "own.xlsx", "--map", "depth=D0:D9"],
-            "--map depth=D0:D9: give a range such as Sheet1!D8:D139; " + SHEETS,
+            "own.xlsx: --map depth=D0:D9: give a range such as Sheet1!D8:D139; " + SHEETS,
         ),
         (
             ["check", "own.xlsx", "--html", "loop.xlsx"],

@@ -329,7 +329,7 @@ BY_DEFINITION = {
     "a1-deceleration-0", *(f"a1-time-{row}" for row in range(5)),
     *(f"a1-velocity-initial-{row}" for row in range(1, 5)),
 }  # fmt: skip
-"""Each scales or selects one printed number: halves, times k dt, 5 times 700, and the like."""
+"""Each scales, multiplies or selects printed numbers: halves, times k dt, 5 times 700."""
 REPEATS = {
     "observed-third", "observed-ratio", "discussion-observed", "general-ratio", "general-third",
     "summary-ratio",

@@ -5,6 +5,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
+from zipfile import ZIP_STORED
 
 import pytest
 from workbooks import rewritten, usable
@@ -101,7 +102,7 @@ class Emitted:
                     content = _type(content.decode(), address, typed).encode()
             return content
 
-        path.write_bytes(rewritten(self.path.read_bytes(), type_into))
+        path.write_bytes(rewritten(self.path.read_bytes(), type_into, ZIP_STORED))
         return path
 
     def recalculated(

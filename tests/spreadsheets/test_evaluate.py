@@ -10,8 +10,9 @@ from hypothesis import strategies as st
 from replication.workbook import Workbook
 from spreadsheets import evaluate
 from spreadsheets.engines import Formualizer, address
-from spreadsheets.evaluate import Area, Error, Evaluator, Scalar, parse, shape_key
+from spreadsheets.evaluate import Evaluator, parse, shape_key
 from spreadsheets.foreign import Book, Cell, Position, read
+from spreadsheets.scalars import Area, Error, Scalar
 
 D9 = (9, 4)
 """Where formulas stand unless a test says otherwise."""

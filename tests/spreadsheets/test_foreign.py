@@ -10,8 +10,9 @@ from foreign.writers import Exact
 from workbooks import rewritten
 
 from spreadsheets import foreign, package
-from spreadsheets.evaluate import Area, Evaluator
+from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Cell, WorkbookError, read
+from spreadsheets.scalars import Area
 
 SHEET, TABLE = "xl/worksheets/sheet1.xml", "xl/tables/table1.xml"
 MAIN, LINKS = "xl/workbook.xml", "xl/_rels/workbook.xml.rels"
@@ -50,9 +51,7 @@ def shared(tmp_path: Path) -> Path:
 def spoiled(path: Path, change: Callable[[bytes], bytes], part: str = SHEET) -> Path:
     """A copy of a workbook with one part changed."""
     another = path.with_name("spoiled.xlsx")
-    content = rewritten(
-        path.read_bytes(), lambda n, data: change(data) if n == part else data, compressed=True
-    )
+    content = rewritten(path.read_bytes(), lambda n, data: change(data) if n == part else data)
     another.write_bytes(content)
     return another
 

@@ -21,6 +21,7 @@ from replication.audit.findings.evidence import (
 from replication.audit.inference import DENSITY
 from replication.audit.record import Finding
 from replication.audit.results import DERIVED, Results, case, exact_ratio
+from replication.audit.slips import EVERY_DENSITY
 
 RISE = {
     "k_t": "fz-kt",
@@ -139,7 +140,8 @@ def headline(audit: Results) -> Finding:
         title="What the audit found",
         statement="With a target density inferred from eight cells of Table A-1, and the sphere's "
         "mass for the printed one, the model's own numbers reproduce to the last printed digit; "
-        "the two Frank-Zook values do not and, computed at one velocity, cannot both be right; "
+        "the two Frank-Zook values do not and, if computed at one velocity and with one pair of "
+        "densities, cannot both be right; "
         f"Eq. 16 as printed is too small by a factor of {factor}.",
         status="explained",
         evidence=evidence,
@@ -455,16 +457,38 @@ def frank_zook_values(audit: Results) -> Finding:
     )
     tried = {name: audit.slips(audit.ledger.claims[f"frank-zook-{name}"]) for name in TARGETS}
     names = {name: {slip.name for slip in fitting} for name, (_, fitting) in tried.items()}
+    forms = equals(
+        "forms", "2194", tried["rha"][0].forms, "1", "forms of Eq. 16 in the family of slips"
+    )
     members = equals(
         "members", "1721", tried["rha"][0].members, "1",
         "different values of the family of slips that is generated, for armor",
     )  # fmt: skip
     fit_rha = equals(
-        "fit_rha", "4", len(names["rha"]), "1", "members of the family that give the armor value"
-    )
+        "fit_rha", "4", len(names["rha"]), "1",
+        "members of the family that give the armor value for some density that is admitted",
+    )  # fmt: skip
     fit_stainless = equals(
         "fit_stainless", "5", len(names["stainless"]), "1",
-        "members of the family that give the stainless value",
+        "members of the family that give the stainless value for some density that is admitted",
+    )  # fmt: skip
+    at_taken = {
+        name: sum(
+            audit.ledger.claims[f"frank-zook-{name}"].target().contains(Fraction(slip.value))
+            for slip in fitting
+        )
+        for name, (_, fitting) in tried.items()
+    }
+    taken_rha = equals("taken_rha", "1", at_taken["rha"], "1", "those that do at 7850 kg/m^3")
+    taken_stainless = equals(
+        "taken_stainless", "2", at_taken["stainless"], "1", "the same, stainless steel"
+    )
+    (same_density,) = (
+        slip for slip in tried["rha"][1] if slip.fits == EVERY_DENSITY and slip.departures == 2
+    )
+    both_copper = prints(
+        "both_copper", "0.27785", same_density.value, "1",
+        "Eq. 16 with 1/2 for k_t in the divisor and the particle's density for both, armor",
     )  # fmt: skip
     chance_rha = prints(
         "chance_rha", "3.3", tried["rha"][0].expected, "1",
@@ -533,11 +557,17 @@ def frank_zook_values(audit: Results) -> Finding:
         f"{text('a1-initial-velocity')}); no input within its rounding gives it. What slips would "
         "give is computed for a family of them, generated part by part: Eq. 16 with one slip or "
         "two, each with and without the missing factor of 2. The family has "
-        f"{members} different values. {fit_rha} of them print {text('frank-zook-rha')} and "
-        f"{fit_stainless} print {text('frank-zook-stainless')}, where {chance_rha} and "
-        f"{chance_stainless} would by accident; {fit_both} print both. The one for armor with the "
-        'fewest departures: "/2kt" typed into a cell as /2*k_t multiplies by k_t. With X/R twice '
-        f"X/D that gives {multiplied} for {assumed} kg/m^3, and prints {text('frank-zook-rha')} "
+        f"{forms} forms with {members} different values. For some density that Table A-1 admits, "
+        f"{fit_rha} of them print {text('frank-zook-rha')} and {fit_stainless} print "
+        f"{text('frank-zook-stainless')} (at {assumed} kg/m^3 {taken_rha} and {taken_stainless}), "
+        f"where {chance_rha} and {chance_stainless} would by accident, reckoned from how many "
+        f"come within a factor of three halves; {fit_both} print both. Two of those for armor have "
+        "two departures from Eq. 16. One puts 1/2 for k_t in the divisor and the particle's "
+        f"density for both densities, and gives {both_copper} whatever the target density. The "
+        "other is "
+        'the only one that is a single slip in the derived form: "/2kt" typed into a cell as '
+        f"/2*k_t multiplies by k_t. With X/R twice X/D that gives {multiplied} for {assumed} "
+        f"kg/m^3, and prints {text('frank-zook-rha')} "
         f"for every density below {below}, so for all that the header with its printed mass "
         f"admits; for stainless steel it gives {multiplied_other}. With the density ratio on k_1 "
         f"in place of L/D, X/R twice X/D, stainless steel gives {on_k_1}, which prints "
@@ -554,9 +584,10 @@ def frank_zook_values(audit: Results) -> Finding:
         status="open",
         evidence=(
             derived, off, least_exact, least_admitted, grid, corner, needed, nearest, after, back,
-            rha_resistance, rha_velocity, rha_derived, never, inertia_, z_, members, fit_rha,
+            rha_resistance, rha_velocity, rha_derived, never, inertia_, z_, forms, members, fit_rha,
             fit_stainless, chance_rha, chance_stainless, fit_both, multiplied, multiplied_other,
-            below, always, on_k_1, on_k_1_other, assumed,
+            below, always, on_k_1, on_k_1_other, assumed, taken_rha, taken_stainless,
+            both_copper,
         ),
         steps=steps,
     )  # fmt: skip

@@ -109,7 +109,7 @@ def contact_velocity(audit: Results) -> float:
     return 2 * still / (linear + sqrt(linear**2 + 4 * square * still))
 
 
-@concerning("cth-pressure", "cth-velocity", "a1-resistance")
+@concerning("cth-pressure", "cth-velocity", "cth-diameter", "a1-resistance")
 def cth_pressure(audit: Results) -> Finding:
     """CTH's greatest pressure against the model's and that of a plane shock."""
     text, exact = audit.text, audit.exact
@@ -143,6 +143,7 @@ def cth_pressure(audit: Results) -> Finding:
         calculated("252", exact("cth-velocity") - 248),
         calculated("9.7", 7.896 * (4.569 + 1.490 * 0.248) * 0.248),
         calculated("9.7", 8.9 * (3.940 + 1.489 * 0.252) * 0.252),
+        calculated("0.13", 12.5 * 0.5 / (2 * 4.94**2)),
     )
     return conclude(
         "cth-pressure",
@@ -153,7 +154,8 @@ def cth_pressure(audit: Results) -> Finding:
         f"press {shock} GPa on each other, by their published shock relations: {times} times CTH's "
         "greatest pressure. Where a sphere first touches, that lasts until the edge of the contact "
         f"is slower than the shock, {speed} km/s in the steel, and the pressure runs out: for "
-        f"{time} ns, up to {edge} um from the axis. The model's own rho_t v^2/2 + R_t is "
+        f"{time} ns, up to {edge} um from the axis of CTH's particle "
+        f"({text('cth-diameter')} um). The model's own rho_t v^2/2 + R_t is "
         f"{flow_low} and {flow_high} GPa at the impact (beta = {text('depth-beta-3-beta')} and "
         f"{text('depth-beta-5-beta')}), and less after it. So {text('cth-pressure')} GPa "
         "contradicts neither, if the grid or the output interval of that calculation did not "
@@ -161,7 +163,7 @@ def cth_pressure(audit: Results) -> Finding:
         by_hand=f"At the contact both move with {interface} m/s into the steel and "
         f"{text('cth-velocity')} - {interface} = {steps[0]} into the copper: 7.896 * (4.569 + "
         f"1.490 * 0.248) * 0.248 = {steps[1]}, 8.9 * (3.940 + 1.489 * 0.252) * 0.252 = {steps[2]} "
-        "GPa.",
+        f"GPa. With R = 12.5 um R V/(2 U^2) is 12.5 * 0.5/(2 * 4.94^2) = {steps[3]} ns.",
         settle="CTH's cell size and the times of its output.",
         status="open",
         evidence=(shock, interface, times, time, edge, speed, flow_low, flow_high),
