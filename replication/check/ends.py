@@ -23,6 +23,8 @@ from spreadsheets.foreign import Position
 
 OTHER_STOP = "other stop"
 """How the explanation of rows that end elsewhere begins."""
+NEAR_END = 3
+"""A result that shows one of so many rows before the last was meant to show the last."""
 _SLOW = 0.1
 """A stop velocity is at most this part of the impact velocity."""
 
@@ -189,7 +191,10 @@ def judge_stop(exam: Examination, idle: Sequence[Position]) -> None:
         exam.ends = False  # what stands below a row that is blank says nothing
     elif below is None:
         _ends_early(exam, speeds, stop, len(rows))
-    elif below < max(speeds) and (_shows_stop(exam, below) or _at_rest(exam, below)):
+    elif below < max(speeds) and _at_rest(exam, below):
+        exam.stop_row = below
+        _at_rest_after(exam, below)
+    elif below < max(speeds) and _shows_stop(exam, below):
         exam.stop_row = below
     elif below < max(speeds):
         cells = [table.place(end[0], k) for k in sorted(table.rows) if k > below and k in speeds]
@@ -277,18 +282,41 @@ def _at_rest(exam: Examination, below: int) -> bool:
     return len(set(depths)) == 1
 
 
-def _shows_stop(exam: Examination, below: int) -> bool:
-    """Whether a cell beside the table shows the depth of the row of the stop.
+def _at_rest_after(exam: Examination, below: int) -> None:
+    """Take rows that stand still after the stop for what they are: no steps of the scheme."""
+    places = exam.table.places
+    exam.differences = [
+        d for d in exam.differences if d.place not in places or places[d.place][1] <= below
+    ]
 
-    Later rows are then spare.
+
+def _shows_stop(exam: Examination, below: int) -> bool:
+    """Whether a cell beside the table shows the depth of the row of the stop, or that over R.
+
+    Later rows are then spare. So they are if it shows a row shortly before by a slip.
     """
     table, evaluator = exam.table, exam.table.evaluator
-    depth, place = table.number("depth", below), table.place("depth", below)
+    depths = {table.place("depth", k): table.number("depth", k) for k in _near_stop(exam, below)}
+    radius = exam.inputs.get("radius")
+    X = 10.0 ** exam.units.get("depth", 0.0)
+    scales = [1.0, *([X / radius.si] if radius is not None and radius.si > 0 else [])]
     for cell in evaluator.formulas.keys() - table.places.keys():
         value = evaluator.values.get(cell)
-        if type(value) is float and depth and value / depth > 0:
-            power = math.log10(value / depth)
-            shows = abs(power - round(power)) < 1e-10
+        if type(value) is not float:
+            continue
+        for place, depth in depths.items():
+            shows = depth and any(_is_power(value / (depth * scale)) for scale in scales)
             if shows and any(area.covers(place) for area in evaluator.areas(cell)):
                 return True
     return False
+
+
+def _near_stop(exam: Examination, below: int) -> list[int]:
+    """The row of the stop, and those shortly before it."""
+    return [k for k in exam.table.rows if below - NEAR_END <= k <= below]
+
+
+def _is_power(ratio: float) -> bool:
+    """Whether a ratio is a power of ten."""
+    power = math.log10(ratio) if 0 < ratio < math.inf else math.nan
+    return math.isfinite(power) and abs(power - round(power)) < 1e-10

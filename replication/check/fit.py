@@ -366,9 +366,9 @@ def _fall(probe: Probe, place: Position, start: State, sign: float) -> tuple[flo
     u, a = probe.base[own[0]], probe.base[brake]
     for _ in range(60):  # find a deceleration that takes a good part of the velocity
         fall = abs(u - probe.value(place, {brake: a}, {}, {}))
-        if not 0 < fall < math.inf or 0.1 * abs(u) < fall < 10 * abs(u):
+        if not 0 < fall < math.inf or 0.05 * abs(u) < fall < 0.45 * abs(u):
             break
-        a *= abs(u) / fall
+        a *= abs(u) / fall / 4  # twice of which leaves a velocity above zero
     e, twice = ((u - probe.value(place, {brake: s * a}, {}, {})) / (s * a) * sign for s in (1, 2))
     value, far = (probe.value(place, {own[0]: s * u}, {}, {}) for s in (1, 2))
     same = own[0] in (start, ("velocity_final", -1))
@@ -547,7 +547,7 @@ def numbers_with(fitted: Fit, table: Table, cells: Cells, literals: Literals) ->
     result = {"c": depth - base["depth", -1] if fitted.depth_adds else depth}
     if fitted.brakes == "deceleration":
         u, falls = base[start_of_row(table)], probe.state[end_of_row(table)]
-        strong = {brake: u / six.e} if six.e and math.isfinite(six.e) else {}
+        strong = {brake: u / six.e / 4} if six.e and math.isfinite(six.e) else {}
         result["e"] = u - probe.value(falls, strong, cells, literals)
     if fitted.force is not None:
         speed = abs(six.V) / 3

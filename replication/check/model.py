@@ -46,6 +46,7 @@ def refuse_other_model(
             raise AnotherModelError(
                 f"{where}: {title(role)} is {source.value:g}: no impact has that"
             )
+    _refuse_zero(inputs)
     if fitted.probe is None:
         if not (_rows_agree(exam) and _steps_agree(found, inputs, slack)):
             raise AnotherModelError(_sentence(exam, "deceleration"))
@@ -64,6 +65,17 @@ def refuse_other_model(
     raise AnotherModelError(
         _sentence(exam, wrong[0] if "deceleration" not in wrong else "deceleration")
     )
+
+
+def _refuse_zero(inputs: Inputs) -> None:
+    """Raise AnotherModelError if a cell is zero that the label calls an input of the rows."""
+    for source in inputs.sources:
+        label, unit = inputs.label(source)
+        roles = input_roles(label, unit) if label and source.cell and not source.value else ()
+        if len(roles) == 1 and "stop_velocity" not in roles:
+            where = address(source.cell, True) if source.cell else ""
+            (role,) = roles
+            raise AnotherModelError(f"{where}: {title(role)} is 0: no impact has that")
 
 
 def blank_inputs(exam: Examination) -> list[Position]:

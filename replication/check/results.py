@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
-from replication.check.ends import OTHER_STOP
+from replication.check.ends import NEAR_END, OTHER_STOP
 from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.labels import label_of
 from replication.check.table import LEAST, address
@@ -18,8 +18,6 @@ from replication.text import with_unit
 from spreadsheets.evaluate import Area, Evaluator, written
 from spreadsheets.foreign import Position
 
-_NEAR_END = 3
-"""A result that shows one of so many rows before the last was meant to show the last."""
 _LIST = 4
 """So far left of a result the number of its row may stand."""
 _ANOTHER_ROW = re.compile(
@@ -199,7 +197,7 @@ def _other_row(
     same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
     if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label) or _says_row(result):
         return None
-    close = last - _NEAR_END <= result.k < last or named in ("depth", "ratio")
+    close = last - NEAR_END <= result.k < last or named in ("depth", "ratio")
     shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
     if not close or _ANOTHER_ROW.search(label) or (shows_last and named is None):
         return None

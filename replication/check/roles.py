@@ -178,6 +178,7 @@ class _Roles:
         """Give out mass and particle density."""
         cells, derived = self.inputs.cells, self.inputs.derived
         radius = cells.get("radius") or cells.get("diameter")
+        typed, made = self.converted(typed, made, radius)
         if made and all(source.cell is None for source in typed):
             self.put(derived, "mass", made[0])  # of numbers that are typed into its formula
             return
@@ -191,10 +192,25 @@ class _Roles:
             unsaid = "particle_density" if of_density else "mass"
             self.put(cells, next(iter(label)) if len(label) == 1 else unsaid, source)
 
+    def converted(
+        self, typed: Sequence[Source], made: Sequence[Source], radius: Source | None
+    ) -> tuple[Sequence[Source], Sequence[Source]]:
+        """Take a particle density that is computed, as by a factor in a cell, for a typed one."""
+        members = {"mass", "particle_density"}
+        if any(self.roles(source) & members for source in typed):
+            return typed, made
+        for source in made:
+            is_density = self.roles(source) & members == {"particle_density"}
+            if is_density and not self.rests_on(source, radius):
+                left = [other for other in typed if not self.rests_on(source, other)]
+                return [source, *left], [other for other in made if other is not source]
+        return typed, made
+
     def strength(self, typed: Sequence[Source], made: Sequence[Source]) -> None:
         """Give out resistance, beta and flow stress."""
         cells, derived = self.inputs.cells, self.inputs.derived
         members = set(FAMILIES["strength"])
+        made = [source for source in made if not self.has_mass(source)] or made
         for source in made:  # a beta or a flow stress may be computed from other numbers
             label = self.roles(source) & {"beta", "flow_stress"}
             if len(label) == 1:
@@ -224,6 +240,11 @@ class _Roles:
                 or (named and (product or "resistance" not in cells))
             ):
                 self.put(derived, "resistance", source)
+
+    def has_mass(self, source: Source) -> bool:
+        """Whether a formula reads a mass, or what the mass rests on: it is no resistance."""
+        others = (o for o in self.inputs.sources if o.family in ("inertia", "size"))
+        return any(self.rests_on(source, other) for other in others)
 
     def is_stress(self, source: Source) -> bool:
         """Whether the label of a cell has a unit of stress beside its words.

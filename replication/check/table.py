@@ -158,6 +158,11 @@ class Line:
         return sum(value > 0 for value in self.values.values()) > 0.8 * len(self.values)
 
     @cached_property
+    def negative(self) -> bool:
+        """Whether most numbers are below zero."""
+        return sum(value < 0 for value in self.values.values()) > len(self.values) / 2
+
+    @cached_property
     def _digits(self) -> tuple[int, int]:
         """The most digits of a typed number, and the power of ten of the last digit."""
         counts = [digits_of(value) for value in self.values.values() if value]
@@ -476,7 +481,10 @@ class _Pair(NamedTuple):
 
 def _pairs_of(known: Sequence[Line], close: float) -> Iterator[_Pair]:
     """The pairs of lines that may be depth and velocity."""
-    depths = [o for o in known if o.grows or (o.computed and _reads(o, o))]
+    depths = [
+        o for o in known
+        if (o.grows and (o.computed or not o.negative)) or (o.computed and _reads(o, o))
+    ]  # fmt: skip
     speeds = [o for o in known if (o.positive or o.computed) and not _is_constant(o)]
     if close == _LOOSE:
         depths, speeds = ([o for o in some if o.computed] for some in (depths, speeds))
