@@ -133,12 +133,17 @@ def _cell_for(
             return role, known.cell or known.name
     for place in beside:
         value = values.get(place)
-        if type(value) is float and value == source.value and not is_plain(value):
+        if type(value) is float and _is_same(value, source.value) and not is_plain(value):
             label, unit = inputs.labels.get(place, ("", None))
             roles = input_roles(label, unit) if label else frozenset(FAMILIES[family])
             if wanted := [role for role in FAMILIES[family] if role in roles or not roles]:
                 return wanted[0], place
     return None
+
+
+def _is_same(value: float, typed: float) -> bool:
+    """Whether a typed number is a value, which formulas may give with other last digits."""
+    return math.isclose(value, typed, rel_tol=1e-12)
 
 
 def _is_sole(source: Source, inputs: Inputs) -> bool:

@@ -7,12 +7,13 @@ from replication.check.cells import (
     BLANK_ROW,
     RIGHT_HERE,
     as_typed,
+    feeding,
     formula_at,
     predicted,
     typed_what,
 )
 from replication.check.examination import NO_FAULT, Examination, near
-from replication.check.fit import is_bounded
+from replication.check.fit import grows_beyond, is_bounded
 from replication.check.responses import Source, is_plain
 from replication.check.roles import Inputs
 from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run, start_of_row
@@ -208,16 +209,29 @@ def _beyond_radius(exam: Examination) -> None:
     table, six = exam.table, exam.intended
     assert six is not None
     assert exam.right_depth is not None
-    cells = exam.cells(exam.fitted.brakes, 1)
+    cells = _unbounded_cells(exam)
     accused = {d.place for d in exam.differences if d.kind != "stale value"}
     if exam.right_depth <= six.D / 2 or accused.intersection(cells):
         return
     if not is_bounded(exam.fitted):
         deep = {k for k in table.rows if (table.number("depth", k) or 0.0) > exam.fitted.six.D / 2}
-        blamed = [cell for cell in cells if table.places[cell][1] in deep]
+        indices = {table.rows[k] for k in deep}
+        along = 2 if table.across else 1
+        blamed = [cell for cell in cells if cell[along] in indices]
         way = VARIANTS["area beyond the radius"]
         if blamed:  # rows that end before the radius are right as they are
             exam.add("other scheme", blamed, None, f"{way.name}: {way.says}")
+
+
+def _unbounded_cells(exam: Examination) -> list[Position]:
+    """The cells of the column in which the contact area shrinks: the first one that has it."""
+    table, probe = exam.table, exam.fitted.probe
+    if probe is not None:
+        for line in feeding(table):
+            if grows_beyond(exam.fitted, line.place(table.rows[probe.k])):
+                rows = sorted(table.rows.items())
+                return [line.place(i) for k, i in rows if k >= 1 and i in line.values]
+    return exam.cells(exam.fitted.brakes, 1)
 
 
 def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, steps: int) -> None:

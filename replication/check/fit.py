@@ -215,7 +215,12 @@ def _probed(table: Table, probe: Probe) -> Fit:
         return replace(fitted, ways={**ways, "deceleration": None})
     force = Force(probe, place, x or ("depth", 0), u or start, sign, e if line is None else None)
     numbers, way, centered = _numbers_of(force, table, e)
-    if way is REPORT["deceleration"]:
+    if way is REPORT["deceleration"] and numbers[0] * numbers[1] < 0:
+        way = None  # the one part of the force drives what the other one brakes
+        if ways.get("velocity_final") is VARIANTS["sign of the deceleration"]:
+            ways["velocity_final"] = REPORT["velocity_final"]
+            fitted = replace(fitted, sign=-sign)
+    elif way is REPORT["deceleration"]:
         way = _as_read(x, u, read, probe, end)
     return replace(
         fitted, six=Six(*numbers, *six[3:]), ways={**ways, "deceleration": way}, force=force,
@@ -642,6 +647,18 @@ def _lacks_square(fitted: Fit, slope: float, D: float) -> bool:
         return False
     power = math.log10(abs(slope) / (math.pi * D))
     return abs(power - round(power)) < 1e-8
+
+
+def grows_beyond(fitted: Fit, place: Position) -> bool:
+    """Whether a formula beside the table has the contact area D x - x² and no right end at R."""
+    D, speed = fitted.six.D, abs(fitted.six.V) / 3
+    if fitted.force is None or not 0 < D < math.inf:
+        return False
+    force = replace(fitted.force, place=place, sign=1.0, e=None)
+    tenth, third, half, deep = (force(part * D, speed) for part in (0.1, 0.3, 0.5, 0.75))
+    if not tenth or not math.isclose(third / tenth, 0.21 / 0.09, rel_tol=1e-6):
+        return False
+    return not math.isclose(deep / tenth, 0.25 / 0.09, rel_tol=1e-6)
 
 
 def is_bounded(fitted: Fit) -> bool:

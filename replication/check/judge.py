@@ -23,7 +23,7 @@ from replication.check.six import (
     origin,
     start_of_row,
 )
-from replication.check.table import Table, address
+from replication.check.table import Line, Table, address
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
 from replication.check.units import Equation, Quantity, equations, mended, state_units
 from replication.check.words import times_too, title, unit_text
@@ -35,6 +35,8 @@ _FEW_DIGITS = 1e-4 / math.log(10)
 """The logarithm of a ratio up to which a unit that is no power of ten may be converted."""
 _ABOUT = 0.05
 """The logarithm of a ratio up to which two numbers are about the same: 12 percent."""
+_MOST_POWER = 300.0
+"""Doubles reach to 1e308."""
 _VAGUE = 30
 """Numbers without formulas may miss an equation by so many times their uncertainty."""
 
@@ -137,9 +139,7 @@ def _other_ways(exam: Examination) -> None:
             column = start_of_row(table)[0]
         line = table.lines[column]
         cells = exam.cells(column, 2 if role == "depth" else 1)
-        if line.usual is not None:  # a first row may have the right formula
-            formulas = table.evaluator.formulas
-            cells = [cell for cell in cells if formulas.get(cell) is line.usual] or cells
+        cells = _usual(line, cells)
         if role == "deceleration":
             cells = _first_wrong(exam) or cells
         if way is not None:
@@ -161,8 +161,15 @@ def _first_wrong(exam: Examination, off: float | None = None) -> list[Position]:
     for line in feeding(table):
         if not is_part(fitted, line.place(index), exam.right_force(off)):
             rows = sorted(table.rows.items())
-            return [line.place(i) for k, i in rows if k >= 1 and i in line.values]
+            return _usual(line, [line.place(i) for k, i in rows if k >= 1 and i in line.values])
     return []
+
+
+def _usual(line: Line, cells: list[Position]) -> list[Position]:
+    """Those of some cells that have the usual formula of their line: others may be right."""
+    if line.usual is None:
+        return cells
+    return [cell for cell in cells if line.evaluator.formulas.get(cell) is line.usual] or cells
 
 
 # ---- equations that do not hold
@@ -221,11 +228,16 @@ def _without_unit(
     return broken, mendable
 
 
+def _clipped(power: float) -> float:
+    """A power of ten that a double can hold."""
+    return max(-_MOST_POWER, min(_MOST_POWER, power))
+
+
 def _broken_equations(
     exam: Examination, inputs: Inputs, found: Sequence[Equation], broken: Mapping[str, str]
 ) -> None:
     """Report the equations that do not hold, each where it is written."""
-    times = {eq.name: 10.0 ** eq.residual(inputs.powers) for eq in found}
+    times = {eq.name: 10.0 ** _clipped(eq.residual(inputs.powers)) for eq in found}
     rests_on = {"diameter": title("radius"), "mass": "the radius and the particle density",
                 "resistance": "beta and the flow stress"}  # fmt: skip
     for role, source in rests_on.items():
@@ -242,10 +254,22 @@ def _broken_equations(
     if "V" in broken and start is not None and start not in {d.place for d in exam.differences}:
         velocity = inputs.cells["velocity"]
         where = address(velocity.cell, True) if velocity.cell else "its name"
-        start = origin(exam.table, start)
+        start = _written(exam.table, origin(exam.table, start))
         kind = "odd formula" if start in exam.table.evaluator.formulas else "typed number"
         text = f"the first velocity is {times['V']:.6g} times {title('velocity')} in {where}"
         exam.add(kind, [start], velocity.value, text)
+
+
+def _written(table: Table, place: Position) -> Position:
+    """The cell beside a table in which a number is computed that others only repeat."""
+    evaluator = table.evaluator
+    shown = evaluator.areas(place)
+    while len(shown) == 1 and shown[0].corner in evaluator.formulas:
+        before = shown[0].corner
+        if before in table.places or evaluator.values.get(before) != evaluator.values[place]:
+            break
+        place, shown = before, evaluator.areas(before)
+    return place
 
 
 _PARTS_OF = {"mass": ("particle_density",), "resistance": ("beta", "flow_stress")}
@@ -268,6 +292,7 @@ def _is_typed_over(inputs: Inputs, role: str, times: float) -> bool:
         return False
     parts = _PARTS_OF.get(role, ())
     typed = role in inputs.cells and not inputs.cells[role].computed
+    typed = typed and inputs.how.get(role) != "unread"
     return typed and bool(parts) and all(inputs.how.get(part) == "unread" for part in parts)
 
 
@@ -319,7 +344,8 @@ def _wrong_force(
         return
     both = {"G", "H"} <= broken.keys() and math.isclose(times["G"], times["H"], rel_tol=1e-8)
     off = times["G"] if both else times.get("H") if parts == ["H"] else None
-    blamed = _first_wrong(exam, off) or exam.cells(exam.fitted.brakes, 1)
+    brakes = exam.table.lines[exam.fitted.brakes]
+    blamed = _first_wrong(exam, off) or _usual(brakes, exam.cells(exam.fitted.brakes, 1))
     if broken.get("D") == "area with R for D" and (cell := _repeats_radius(exam, inputs)):
         text = f"{formula_at(exam, cell)} does not give {title('diameter')}: it repeats the radius"
         exam.add("odd formula", [cell], None, text)
@@ -354,7 +380,7 @@ def _other_steps(exam: Examination, broken: Mapping[str, str]) -> None:
         blamed[end] = 1
     accused = {cell for d in exam.differences for cell in d.cells}
     for role, first in blamed.items():
-        cells = exam.cells(role, first)
+        cells = _usual(exam.table.lines[role], exam.cells(role, first))
         odd = exam.fitted.ways.get("depth" if role == "depth" else "velocity_final")
         if accused.intersection(cells) or (role != "time" and odd not in (*REPORT.values(),)):
             continue

@@ -84,6 +84,8 @@ def blank_inputs(exam: Examination) -> list[Position]:
     Without them the force lacks one of its parts; it has another value if numbers stand there.
     """
     fitted = exam.fitted
+    if fitted.force is None and fitted.probe is not None:
+        return _blank_force(exam)
     lacks = (VARIANTS["no drag"], VARIANTS["no resistance"])
     if fitted.force is None or fitted.ways.get("deceleration") not in lacks:
         return []
@@ -98,6 +100,22 @@ def blank_inputs(exam: Examination) -> list[Position]:
     if fitted.force(depth, speed) == filled:
         return []
     return [place for place in blank if value([p for p in blank if p != place]) != filled]
+
+
+def _blank_force(exam: Examination) -> list[Position]:
+    """The blank cells without which there is no force at all."""
+    fitted, blank = exam.fitted, sorted(trace(exam.table, exam.fitted).blank)
+    probe = fitted.probe
+    if probe is None or (fitted.brakes, 0) not in probe.state:
+        return []
+    place = probe.state[fitted.brakes, 0]
+
+    def value(cells: Sequence[Position]) -> float:
+        return probe.value(place, {}, dict.fromkeys(cells, _LARGE), {})
+
+    if not fitted.brakes.startswith("decel") or value([]) != 0 or value(blank) == 0:
+        return []
+    return [p for p in blank if value([q for q in blank if q != p]) != value(blank)]
 
 
 def _known_families(inputs: Inputs) -> tuple[int, int]:

@@ -179,7 +179,9 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         known = (*report[role], OTHER_STEP) if role == "step" else report[role]
         off = next(filter(None, (_power_off(entry, value) for value in known)), 0)
         is_slip = off % 3 == 0 or off % 2 == 0  # a unit ten times another one is unusual
-        if off and is_slip and len(others) == 1 and len(typed) - 1 >= _ALIKE:
+        alone = len(others) == 1 and len(typed) - 1 >= _ALIKE
+        weak = role == "flow_stress" and entry.si < _NO_BETA and exam.firm and exam.firm_speed
+        if off and is_slip and (alone or weak):
             text = (
                 f"the formulas take {title(role)} as {quantity(entry.si, role)}, {times_too(off)}"
             )
