@@ -238,8 +238,10 @@ def _broken_equations(
 ) -> None:
     """Report the equations that do not hold, each where it is written."""
     times = {eq.name: 10.0 ** _clipped(eq.residual(inputs.powers)) for eq in found}
-    rests_on = {"diameter": title("radius"), "mass": "the radius and the particle density",
-                "resistance": "beta and the flow stress"}  # fmt: skip
+    rests_on = {
+        "diameter": title("radius"), "radius": title("diameter"),
+        "mass": "the radius and the particle density", "resistance": "beta and the flow stress",
+    }  # fmt: skip
     for role, source in rests_on.items():
         typed_over = (
             exam.fitted.probe is not None
@@ -332,6 +334,26 @@ def _repeats_radius(exam: Examination, inputs: Inputs) -> Position | None:
     return None
 
 
+def _beta_typed(
+    exam: Examination, inputs: Inputs, blamed: Sequence[Position], times: float
+) -> bool:
+    """Report another beta that is typed into the force beside the cell of the flow stress."""
+    beta, stress = inputs.cells.get("beta"), inputs.cells.get("flow_stress")
+    shape = exam.table.evaluator.formulas.get(blamed[0])
+    if beta is None or stress is None or beta.cell is None or shape is None:
+        return False
+    own = exam.table.evaluator.areas(blamed[0])
+    typed = [n for n in shape.literals if near(n, beta.value * times)]
+    if not typed or any(area.covers(beta.cell) for area in own):
+        return False
+    if stress.cell is None or not any(area.covers(stress.cell) for area in own):
+        return False
+    where = address(beta.cell, beta.cell[0] != exam.table.sheet)
+    text = f"{title('beta')} is typed as {typed[0]:.10g}, where {where} should be read"
+    exam.add("typed constant", blamed, where, text, formula_at(exam, blamed[0]))
+    return True
+
+
 def _wrong_force(
     exam: Examination, inputs: Inputs, broken: Mapping[str, str], times: Mapping[str, float]
 ) -> None:
@@ -350,6 +372,8 @@ def _wrong_force(
         text = f"{formula_at(exam, cell)} does not give {title('diameter')}: it repeats the radius"
         exam.add("odd formula", [cell], None, text)
         parts.remove("D")
+    if parts == ["H"] and _beta_typed(exam, inputs, blamed, times["H"]):
+        return
     if not parts or blamed[0] in {d.place for d in exam.differences}:
         return
     if both:

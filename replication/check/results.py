@@ -11,9 +11,10 @@ from reference.units import same_dimension, to_si
 from replication.check.ends import NEAR_END, OTHER_STOP
 from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.labels import label_of
+from replication.check.responses import is_plain
 from replication.check.table import LEAST, address
 from replication.check.taken import case_of, report_inputs
-from replication.check.words import number_in, result_of, times_too, unit_text
+from replication.check.words import number_in, power_of_ten, result_of, times_too, title, unit_text
 from replication.text import with_unit
 from spreadsheets.evaluate import Area, Evaluator, written
 from spreadsheets.foreign import Position
@@ -140,6 +141,7 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
             continue
         if any(r.place in read and r.over_diameter for r in found):
             continue  # it shows another result, which is judged
+        _typed_radius(result, evaluator)
         label, unit, sure = label_of(result.place, evaluator)
         fault = _fault(result, found, label, unit, sure)
         if fault is not None:
@@ -152,6 +154,22 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
             shown = written(formula.key, result.place[1], result.place[2])
             exam.add(kind, [result.place], expected, text, shown if kind == "odd formula" else unit)
             wrong.add(result.place)
+
+
+def _typed_radius(result: Result, evaluator: Evaluator) -> None:
+    """Report the radius, or the diameter, typed into X/R, where its cell should be read."""
+    exam, shape = result.exam, evaluator.formulas[result.place]
+    for role in ("radius", "diameter") if result.ratio else ():
+        entry = exam.inputs.get(role)
+        if entry is None or entry.place is None or is_plain(entry.value):
+            continue
+        for number in shape.literals:
+            if not is_plain(number) and power_of_ten(number / entry.value) is not None:
+                where = address(entry.place, entry.place[0] != result.place[0])
+                text = f"{title(role)} is typed as {number:.10g}, where {where} should be read"
+                shown = written(shape.key, result.place[1], result.place[2])
+                exam.add("typed constant", [result.place], where, text, shown)
+                return
 
 
 Fault = tuple[str, str | None, str]

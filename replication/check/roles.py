@@ -153,16 +153,42 @@ class _Roles:
     def size(self, typed: Sequence[Source], made: Sequence[Source]) -> None:
         """Give out radius and diameter."""
         cells, derived = self.inputs.cells, self.inputs.derived
+        typed, made = self.computed_radius(typed, made)
         for source in typed:
             self.put(cells, self.radius_or_diameter(source), source)
         for source in made:
             named = "diameter" in self.roles(source)
+            if self.is_wrong_half(source, typed):
+                derived["radius"] = source
+                continue
             if named or self.rests_on(source, cells.get("radius")):
                 if not _is_alias(source, typed):
                     role = "diameter" if "radius" in cells else self.radius_or_diameter(source)
                     self.put(derived, role, source)
             elif not typed:
                 self.put(derived, self.radius_or_diameter(source), source)
+
+    def is_wrong_half(self, source: Source, typed: Sequence[Source]) -> bool:
+        """Whether a formula for the radius is not half of the only typed cell, a diameter."""
+        if self.roles(source) != {"radius"} or len(typed) != 1:
+            return False
+        (other,) = typed
+        power = math.log10(abs(source.value / other.value) * 2)
+        is_diameter = self.roles(other) == {"diameter"} and self.rests_on(source, other)
+        return is_diameter and abs(power - round(power)) > CLOSE
+
+    def computed_radius(
+        self, typed: Sequence[Source], made: Sequence[Source]
+    ) -> tuple[Sequence[Source], Sequence[Source]]:
+        """Take a radius that is computed from several cells for a typed one, without these."""
+        members = {"radius", "diameter"}
+        for source in made:
+            parts = [other for other in typed if self.rests_on(source, other)]
+            several = len(parts) > 1 and not all(self.roles(part) & members for part in parts)
+            if several and self.roles(source) & members == {"radius"}:
+                left = [other for other in typed if other not in parts]
+                return [source, *left], [other for other in made if other is not source]
+        return typed, made
 
     def radius_or_diameter(self, source: Source) -> str:
         """Which of both a cell is: by D = 2R up to a power of ten, or by its label."""
