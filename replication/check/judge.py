@@ -453,6 +453,10 @@ def _wrong_unit(exam: Examination, inputs: Inputs, item: Item, stated: float) ->
     exam.add("unit", [source.place], shown, text, unit)
 
 
+_FOLLOWS = {"c = e": {"c = dt", "e = dt"}, "t = c": {"t = dt", "c = dt"}}
+"""Equations that follow from two others, which tell the column that is wrong."""
+
+
 def _not_converted(
     exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
 ) -> None:

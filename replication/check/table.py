@@ -789,6 +789,8 @@ def _time(others: Sequence[Line], c: float, near: int, taken: set[Line]) -> Line
         fits = abs(math.log10(step / c) - round(math.log10(step / c))) < 1e-6
         named = "time" in line.roles
         whole = all(value == int(value) for value in line.values.values())
+        if whole and step == 1 and not fits and line.unit is None:
+            continue  # it counts the rows, whatever its head
         if named or (fits and not whole):
             ranked.append((not named, not fits, abs(line.number - near), line))
     ranked.sort(key=lambda entry: entry[:-1])
