@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from replication.check.examination import Difference, Examination
 from replication.check.fit import Probe
 from replication.check.roles import Inputs
-from replication.check.six import EXACT, REPORT, start_of_row
+from replication.check.six import EXACT, start_of_row
 from replication.check.table import LEAST, Line, Table, behind, runs
 from replication.check.words import title
 from replication.reading import quoted
@@ -425,7 +425,9 @@ def _repeats(formula: str, instead: str) -> bool:
     fixed = list(re.finditer(r"\$[A-Z]+\$\d+", instead))
     number = r"\d+\.?\d*(?:E[-+]?\d+)?"
     return any(
-        re.fullmatch(re.escape(instead[: m.start()]) + number + re.escape(instead[m.end() :]), formula)
+        re.fullmatch(
+            re.escape(instead[: m.start()]) + number + re.escape(instead[m.end() :]), formula
+        )
         for m in fixed
     )
 

@@ -254,6 +254,7 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
     faults = [d for d in exam.differences if d.kind not in NO_FAULT or d.kind == "other input"]
     is_report = stop == 1.0 and case_of(six, max(1e-6, 10 * exam.fitted.slack)) is not None
     column = end_of_row(table)[0]
+    exam.cut_short = is_report and not faults and not prepared and 2 * table.steps < steps
     if is_report and not faults and not prepared and steps // 2 <= table.steps < steps - 1:
         exam.add("other scheme", [table.place(column, table.steps)], None, f"{OTHER_STOP}: {text}")
         exam.ends = True

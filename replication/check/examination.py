@@ -48,7 +48,8 @@ class Examination:
     are all inputs that are known, `read` all cells outside the table that it rests on. `corrected`
     is an input whose number is in another unit, with its right value. `right_depth` [m] is the
     final depth of the report's scheme with the intended inputs. `stop_row` is the row of the stop
-    where rows after it are spare or at rest.
+    where rows after it are spare or at rest. `cut_short`: the rows are the first ones of a case of
+    the report, as in an excerpt.
     """
 
     table: Table
@@ -63,6 +64,7 @@ class Examination:
     right_depth: float | None = None
     ends: bool = True
     stop_row: int | None = None
+    cut_short: bool = False
     corrected: tuple[str, float] | None = None
     differences: list[Difference] = field(default_factory=list)
 

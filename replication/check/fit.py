@@ -192,7 +192,7 @@ def _probed(table: Table, probe: Probe) -> Fit:
         e, ways["velocity_final"] = _fall(probe, falls, start, sign)
         if ways["velocity_final"] is REPORT["velocity_final"] and math.isnan(e):
             e = c  # the velocity repeats the force in its own formula
-    adds = "time" in table.lines and ("time", -1) in probe.answers(probe.state["time", 0])
+    adds = ("time", 0) in probe.state and ("time", -1) in probe.answers(probe.state["time", 0])
     six = Six(math.nan, math.nan, math.nan, c, e, impact_velocity(table))
     grows = ("depth", -1) in probe.answers(probe.state["depth", 0])
     fitted = Fit(
@@ -563,7 +563,7 @@ def numbers_with(fitted: Fit, table: Table, cells: Cells, literals: Literals) ->
         numbers = centered_numbers(force, small, speed, abs(six.e) / 2 * fitted.centered)
         if numbers is not None:
             result |= dict(zip("GHD", numbers, strict=True))
-    if "time" in table.lines and table.lines["time"].computed:
+    if ("time", 0) in probe.state and table.lines["time"].computed:
         value = probe.value(probe.state["time", 0], {}, cells, literals)
         result["t"] = value - base["time", -1] if fitted.time_adds else value
     return result
@@ -655,7 +655,7 @@ def grows_beyond(fitted: Fit, place: Position) -> bool:
     if fitted.force is None or not 0 < D < math.inf:
         return False
     force = replace(fitted.force, place=place, sign=1.0, e=None)
-    tenth, third, half, deep = (force(part * D, speed) for part in (0.1, 0.3, 0.5, 0.75))
+    tenth, third, deep = (force(part * D, speed) for part in (0.1, 0.3, 0.75))
     if not tenth or not math.isclose(third / tenth, 0.21 / 0.09, rel_tol=1e-6):
         return False
     return not math.isclose(deep / tenth, 0.25 / 0.09, rel_tol=1e-6)

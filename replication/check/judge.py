@@ -11,7 +11,7 @@ from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import Examination, near
 from replication.check.excerpt import judge_excerpt
 from replication.check.fit import is_part
-from replication.check.model import blank_inputs, refuse_other_model
+from replication.check.model import AnotherModelError, blank_inputs, refuse_other_model
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
 from replication.check.rows import fit_table
@@ -142,11 +142,31 @@ def _other_ways(exam: Examination) -> None:
         cells = _usual(line, cells)
         if role == "deceleration":
             cells = _first_wrong(exam) or cells
+        if way is None and _not_computed(exam, cells[0]):
+            continue
         if way is not None:
             exam.add("other scheme", cells, None, f"{way.name}: {way.says}")
         else:
             text = f"{formula_at(exam, cells[0])} is not what the report has for {title(column)}"
             exam.add("odd formula", cells, None, text)
+
+
+def _not_computed(exam: Examination, place: Position) -> bool:
+    """Whether a formula of the rows reads one that is not computed, and has no stored value.
+
+    A name that nothing has is a fault; of other such formulas nothing can be said.
+    """
+    evaluator = exam.table.evaluator
+    for area in evaluator.areas(place):
+        reason = evaluator.reasons.get(area.corner)
+        if reason is None or evaluator.values.get(area.corner) is not None:
+            continue
+        if not reason.startswith("nothing is called"):
+            raise AnotherModelError(f"{address(area.corner, True)} is not computed: {reason}")
+        text = f"{formula_at(exam, area.corner)}: {reason}"
+        exam.add("odd formula", [area.corner], None, text)
+        return True
+    return False
 
 
 def _first_wrong(exam: Examination, off: float | None = None) -> list[Position]:
@@ -469,6 +489,8 @@ def _not_converted(
         rest = rests[eq.name]
         if of_cell and eq.name in ("c = e", "t = c"):
             continue  # which follows: the column is named that has another step than the cell
+        if rests.keys() >= _FOLLOWS.get(eq.name, {""}):
+            continue
         cells, what = _written_in(exam, inputs, eq.name)
         if not accused.intersection(cells):
             accused |= set(cells)

@@ -186,6 +186,9 @@ def _fault(
     x, final = table.number("depth", result.k), table.number("depth", last)
     if result.k != last and x != final:
         return _other_row(result, found, label, named)
+    if result.exam.cut_short and named == "depth" and not result.ratio:
+        text = f"the label says the final depth, but the rows end at step {last}, before the stop"
+        return "odd formula", None, text
     if result.over_diameter:
         wrong = result.power == 0 and named == "ratio" and not _DIAMETER.search(label)
         text = "the number is the depth over the diameter, not over the radius"
@@ -349,8 +352,13 @@ def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]
                 break
 
 
+def _double(value: Fraction) -> float:
+    """A number as a double, infinite beyond doubles."""
+    return float(value) if abs(value) < 1e308 else math.copysign(math.inf, value)
+
+
 def _judged(name: str, place: Position, value: Fraction, typed: bool) -> PrintedCell:
     """Compare a value in SI units with the claim of this name."""
     claim = load().claims[name]
     shown = value / claim.si
-    return PrintedCell(claim, place, float(shown), claim.target().contains(value), typed)
+    return PrintedCell(claim, place, _double(shown), claim.target().contains(value), typed)

@@ -92,6 +92,7 @@ class _Roles:
     inputs: Inputs
     D: float
     known: dict[Position, frozenset[str]] = field(default_factory=dict)
+    parts: set[Position] = field(default_factory=set)
 
     def roles(self, source: Source) -> frozenset[str]:
         """The inputs that the label of a cell, or the name of a number, may name."""
@@ -187,6 +188,7 @@ class _Roles:
             several = len(parts) > 1 and not all(self.roles(part) & members for part in parts)
             if several and self.roles(source) & members == {"radius"}:
                 left = [other for other in typed if other not in parts]
+                self.parts |= {part.cell for part in parts if part.cell is not None}
                 return [source, *left], [other for other in made if other is not source]
         return typed, made
 
@@ -312,7 +314,7 @@ class _Roles:
         for source in sorted(single, key=lambda s: s.computed):
             roles = self.roles(source)
             plain = is_plain(source.value) and source.value != 0
-            if source.cell not in taken and len(roles) == 1 and not plain:
+            if source.cell not in taken | self.parts and len(roles) == 1 and not plain:
                 (role,) = roles
                 if role not in derived and self.gives_way(cells.get(role), source):
                     (derived if source.computed else cells)[role] = source

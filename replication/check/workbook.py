@@ -106,7 +106,10 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
         try:
             exams.append(
                 examine(
-                    table, names, cells, _beside(table, idle, found),
+                    table,
+                    names,
+                    cells,
+                    _beside(table, idle, found),
                     _typed_numbers(table, found) + _unused(table, idle),
                 )
             )
