@@ -354,7 +354,7 @@ def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]
 
 def _double(value: Fraction) -> float:
     """A number as a double, infinite beyond doubles."""
-    return float(value) if abs(value) < 1e308 else math.copysign(math.inf, value)
+    return float(value) if abs(value) < 1e308 else math.inf if value > 0 else -math.inf
 
 
 def _judged(name: str, place: Position, value: Fraction, typed: bool) -> PrintedCell:
