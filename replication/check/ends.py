@@ -315,7 +315,8 @@ def _shows_stop(exam: Examination, below: int) -> bool:
     radius = exam.inputs.get("radius")
     X = 10.0 ** exam.units.get("depth", 0.0)
     scales = [1.0, *([X / radius.si] if radius is not None and radius.si > 0 else [])]
-    for cell in evaluator.formulas.keys() - table.places.keys():
+    lined = {line.place(i) for line in table.helpers for i in line.values}
+    for cell in evaluator.formulas.keys() - table.places.keys() - lined:
         value = evaluator.values.get(cell)
         if type(value) is not float:
             continue

@@ -2,6 +2,7 @@
 
 import math
 import re
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -353,8 +354,9 @@ def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]
 
 
 def _double(value: Fraction) -> float:
-    """A number as a double, infinite beyond doubles."""
-    return float(value) if abs(value) < 1e308 else math.inf if value > 0 else -math.inf
+    """A number as a double; the largest ones stand for what is beyond them."""
+    most = sys.float_info.max
+    return float(max(-Fraction(most), min(Fraction(most), value)))
 
 
 def _judged(name: str, place: Position, value: Fraction, typed: bool) -> PrintedCell:
