@@ -5,13 +5,14 @@ own row. So a wrong cell is found where it stands, and the rows that follow from
 """
 
 import math
+import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from replication.check.examination import Difference, Examination
 from replication.check.fit import Probe
 from replication.check.roles import Inputs
-from replication.check.six import EXACT, REPORT, start_of_row
+from replication.check.six import EXACT, start_of_row
 from replication.check.table import LEAST, Line, Table, behind, runs
 from replication.check.words import COLUMNS, title
 from replication.reading import quoted
@@ -322,6 +323,7 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
     table, evaluator, usual = exam.table, exam.table.evaluator, line.usual
     odd: dict[Position, tuple[object, ...]] = {}
     probed = 0
+    is_wrong = _is_wrong(exam, line)
     first = min(line.values)
     for k, place in _rows_of(table, line, role):
         shape = evaluator.formulas.get(place)
@@ -331,8 +333,8 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
             continue
         if role is None and line.place(first)[1:] > place[1:]:
             continue
-        if role == "deceleration" and _is_right_force(exam, k):
-            continue
+        if shape is not None and is_wrong:
+            continue  # which may be right
         is_last = k == table.steps and role in ("deceleration", "velocity_final")
         end = table.lines.get("velocity_final")
         if role == "deceleration" and end is not None and end.computed:
@@ -349,19 +351,15 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
         exam.add(str(kind), group, expected, str(text), found)  # type: ignore[arg-type]
 
 
-def _is_right_force(exam: Examination, k: int) -> bool:
-    """Whether a row has the deceleration of its inputs, where its column is accused as a whole."""
-    table, units, six = exam.table, exam.units, exam.intended
-    if exam.fitted.ways.get("deceleration") is REPORT["deceleration"] or six is None:
-        return False
-    start = start_of_row(table)
-    x, u = table.number("depth", k), table.number(start[0], k + start[1])
-    a = table.number("deceleration", k)
-    if x is None or u is None or a is None:
-        return False
-    X, W, A = (10.0 ** units.get(role, 0.0) for role in ("depth", start[0], "deceleration"))
-    wanted = six.deceleration(x * X, u * W)
-    return math.isclose(exam.fitted.sign * a * A, wanted, rel_tol=EXACT)
+def _is_wrong(exam: Examination, line: Line) -> bool:
+    """Whether the usual formula of a line is accused already, wherever it stands."""
+    formulas, usual = exam.table.evaluator.formulas, line.usual
+    own = {line.place(i) for i in line.values}
+    return usual is not None and any(
+        len(d.cells) > LEAST and own.issuperset(d.cells) and formulas.get(d.place) is usual
+        for d in exam.differences
+        if d.kind in ("other scheme", "odd formula", "typed constant")
+    )
 
 
 Verdict = tuple[str, str, object, object]
@@ -450,11 +448,30 @@ def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool, bool]
     if same and state and not given and not reads_more:
         text = f"{formula} has a number where its column reads a cell: {odd.instead[:200]}"
         return "typed constant", f"{text}{RIGHT_HERE}", None, None
+    if not same and _repeats(formula, odd.instead):
+        text = f"{formula} has a number where its column reads a cell: {odd.instead[:200]}"
+        return "typed constant", text, odd.expected, odd.value
     if odd.role == "time":  # which people count up in several ways
         return None if same else _other_number(odd, formula)
     if same and state:
         return None
     return "odd formula", f"{formula} is unlike its column{odd.would}", odd.expected, odd.value
+
+
+def _repeats(formula: str, instead: str) -> bool:
+    """Whether a formula is another one but for a number in place of a fixed cell.
+
+    >>> _repeats("=D19+C20*2E-10", "=D19+C20*$E$2"), _repeats("=D19+C20", "=D19+C20*$E$2")
+    (True, False)
+    """
+    fixed = list(re.finditer(r"\$[A-Z]+\$\d+", instead))
+    number = r"\d+\.?\d*(?:E[-+]?\d+)?"
+    return any(
+        re.fullmatch(
+            re.escape(instead[: m.start()]) + number + re.escape(instead[m.end() :]), formula
+        )
+        for m in fixed
+    )
 
 
 def typed_what(value: object) -> str:

@@ -1,15 +1,17 @@
 """Numbers typed into formulas where the cell of an input should be read."""
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from replication.check.cells import formula_at
 from replication.check.examination import Examination
 from replication.check.fit import Probe
+from replication.check.labels import label_of
 from replication.check.responses import FAMILIES, Source, is_plain
 from replication.check.roles import Inputs
 from replication.check.table import address
 from replication.check.words import input_roles, title
+from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Position
 from spreadsheets.scalars import Error, LiteralKey, Scalar
 
@@ -34,7 +36,7 @@ def typed_constants(
         if source.literal is None or source.place is None or family is None:
             continue  # a name that stands for a number is an input by itself
         cell: tuple[str, Position | str] | None = _cell_for(
-            source, family, inputs, beside, exam.table.evaluator.values
+            source, family, inputs, beside, exam.table.evaluator
         )
         if cell is None:
             continue
@@ -108,8 +110,7 @@ def _cells_with(exam: Examination, place: Position) -> list[Position]:
 
 
 def _cell_for(
-    source: Source, family: str, inputs: Inputs, beside: Sequence[Position],
-    values: Mapping[Position, Scalar],
+    source: Source, family: str, inputs: Inputs, beside: Sequence[Position], evaluator: Evaluator,
 ) -> tuple[str, Position | str] | None:  # fmt: skip
     """The role and the cell, or the name, of what a typed number repeats; None if there is none.
 
@@ -132,13 +133,34 @@ def _cell_for(
         ):
             return role, known.cell or known.name
     for place in beside:
-        value = values.get(place)
-        if type(value) is float and value == source.value and not is_plain(value):
+        value = evaluator.values.get(place)
+        if type(value) is float and _is_same(value, source.value) and not is_plain(value):
             label, unit = inputs.labels.get(place, ("", None))
             roles = input_roles(label, unit) if label else frozenset(FAMILIES[family])
             if wanted := [role for role in FAMILIES[family] if role in roles or not roles]:
                 return wanted[0], place
-    return None
+    return _unread_formula(source, family, inputs, beside, evaluator)
+
+
+def _unread_formula(
+    source: Source, family: str, inputs: Inputs, beside: Sequence[Position], evaluator: Evaluator
+) -> tuple[str, Position | str] | None:
+    """The one formula beside that computes the mass, or the resistance, and that nothing reads."""
+    role = {"inertia": "mass", "strength": "resistance"}.get(family)
+    if role is None or not _is_sole(source, inputs) or inputs.derived.get(role):
+        return None
+    named = []
+    for place in beside:
+        if place in evaluator.formulas:
+            label, unit, _ = label_of(place, evaluator)
+            if label and input_roles(label, unit) == {role}:
+                named.append(place)
+    return (role, named[0]) if len(named) == 1 else None
+
+
+def _is_same(value: float, typed: float) -> bool:
+    """Whether a typed number is a value, which formulas may give with other last digits."""
+    return math.isclose(value, typed, rel_tol=1e-12)
 
 
 def _is_sole(source: Source, inputs: Inputs) -> bool:

@@ -7,12 +7,13 @@ from replication.check.cells import (
     BLANK_ROW,
     RIGHT_HERE,
     as_typed,
+    feeding,
     formula_at,
     predicted,
     typed_what,
 )
 from replication.check.examination import NO_FAULT, Examination, near
-from replication.check.fit import is_bounded
+from replication.check.fit import grows_beyond, is_bounded
 from replication.check.responses import Source, is_plain
 from replication.check.roles import Inputs
 from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run, start_of_row
@@ -23,6 +24,8 @@ from spreadsheets.foreign import Position
 
 OTHER_STOP = "other stop"
 """How the explanation of rows that end elsewhere begins."""
+NEAR_END = 3
+"""A result that shows one of so many rows before the last was meant to show the last."""
 _SLOW = 0.1
 """A stop velocity is at most this part of the impact velocity."""
 
@@ -189,7 +192,10 @@ def judge_stop(exam: Examination, idle: Sequence[Position]) -> None:
         exam.ends = False  # what stands below a row that is blank says nothing
     elif below is None:
         _ends_early(exam, speeds, stop, len(rows))
-    elif below < max(speeds) and (_shows_stop(exam, below) or _at_rest(exam, below)):
+    elif below < max(speeds) and _at_rest(exam, below):
+        exam.stop_row = below
+        _at_rest_after(exam, below)
+    elif below < max(speeds) and _shows_stop(exam, below):
         exam.stop_row = below
     elif below < max(speeds):
         cells = [table.place(end[0], k) for k in sorted(table.rows) if k > below and k in speeds]
@@ -203,16 +209,29 @@ def _beyond_radius(exam: Examination) -> None:
     table, six = exam.table, exam.intended
     assert six is not None
     assert exam.right_depth is not None
-    cells = exam.cells(exam.fitted.brakes, 1)
+    cells = _unbounded_cells(exam)
     accused = {d.place for d in exam.differences if d.kind != "stale value"}
     if exam.right_depth <= six.D / 2 or accused.intersection(cells):
         return
     if not is_bounded(exam.fitted):
         deep = {k for k in table.rows if (table.number("depth", k) or 0.0) > exam.fitted.six.D / 2}
-        blamed = [cell for cell in cells if table.places[cell][1] in deep]
+        indices = {table.rows[k] for k in deep}
+        along = 2 if table.across else 1
+        blamed = [cell for cell in cells if cell[along] in indices]
         way = VARIANTS["area beyond the radius"]
         if blamed:  # rows that end before the radius are right as they are
             exam.add("other scheme", blamed, None, f"{way.name}: {way.says}")
+
+
+def _unbounded_cells(exam: Examination) -> list[Position]:
+    """The cells of the column in which the contact area shrinks: the first one that has it."""
+    table, probe = exam.table, exam.fitted.probe
+    if probe is not None:
+        for line in feeding(table):
+            if grows_beyond(exam.fitted, line.place(table.rows[probe.k])):
+                rows = sorted(table.rows.items())
+                return [line.place(i) for k, i in rows if k >= 1 and i in line.values]
+    return exam.cells(exam.fitted.brakes, 1)
 
 
 def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, steps: int) -> None:
@@ -235,6 +254,7 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
     faults = [d for d in exam.differences if d.kind not in NO_FAULT or d.kind == "other input"]
     is_report = stop == 1.0 and case_of(six, max(1e-6, 10 * exam.fitted.slack)) is not None
     column = end_of_row(table)[0]
+    exam.cut_short = is_report and not faults and not prepared and 2 * table.steps < steps
     if is_report and not faults and not prepared and steps // 2 <= table.steps < steps - 1:
         exam.add("other scheme", [table.place(column, table.steps)], None, f"{OTHER_STOP}: {text}")
         exam.ends = True
@@ -277,18 +297,42 @@ def _at_rest(exam: Examination, below: int) -> bool:
     return len(set(depths)) == 1
 
 
-def _shows_stop(exam: Examination, below: int) -> bool:
-    """Whether a cell beside the table shows the depth of the row of the stop.
+def _at_rest_after(exam: Examination, below: int) -> None:
+    """Take rows that stand still after the stop for what they are: no steps of the scheme."""
+    places = exam.table.places
+    exam.differences = [
+        d for d in exam.differences if d.place not in places or places[d.place][1] <= below
+    ]
 
-    Later rows are then spare.
+
+def _shows_stop(exam: Examination, below: int) -> bool:
+    """Whether a cell beside the table shows the depth of the row of the stop, or that over R.
+
+    Later rows are then spare. So they are if it shows a row shortly before by a slip.
     """
     table, evaluator = exam.table, exam.table.evaluator
-    depth, place = table.number("depth", below), table.place("depth", below)
-    for cell in evaluator.formulas.keys() - table.places.keys():
+    depths = {table.place("depth", k): table.number("depth", k) for k in _near_stop(exam, below)}
+    radius = exam.inputs.get("radius")
+    X = 10.0 ** exam.units.get("depth", 0.0)
+    scales = [1.0, *([X / radius.si] if radius is not None and radius.si > 0 else [])]
+    lined = {line.place(i) for line in table.helpers for i in line.values}
+    for cell in evaluator.formulas.keys() - table.places.keys() - lined:
         value = evaluator.values.get(cell)
-        if type(value) is float and depth and value / depth > 0:
-            power = math.log10(value / depth)
-            shows = abs(power - round(power)) < 1e-10
+        if type(value) is not float:
+            continue
+        for place, depth in depths.items():
+            shows = depth and any(_is_power(value / (depth * scale)) for scale in scales)
             if shows and any(area.covers(place) for area in evaluator.areas(cell)):
                 return True
     return False
+
+
+def _near_stop(exam: Examination, below: int) -> list[int]:
+    """The row of the stop, and those shortly before it."""
+    return [k for k in exam.table.rows if below - NEAR_END <= k <= below]
+
+
+def _is_power(ratio: float) -> bool:
+    """Whether a ratio is a power of ten."""
+    power = math.log10(ratio) if 0 < ratio < math.inf else math.nan
+    return math.isfinite(power) and abs(power - round(power)) < 1e-10

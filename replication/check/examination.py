@@ -49,7 +49,8 @@ class Examination:
     is an input whose number is in another unit, with its right value. `right_depth` [m] is the
     final depth of the report's scheme with the intended inputs. `stop_row` is the row of the stop
     where rows after it are spare or at rest. `following` are cells that are right by what wrong
-    cells should hold.
+    cells should hold. `cut_short`: the rows are the first ones
+    of a case of the report, as in an excerpt.
     """
 
     table: Table
@@ -64,6 +65,7 @@ class Examination:
     right_depth: float | None = None
     ends: bool = True
     stop_row: int | None = None
+    cut_short: bool = False
     corrected: tuple[str, float] | None = None
     following: frozenset[Position] = frozenset()
     differences: list[Difference] = field(default_factory=list)

@@ -195,7 +195,7 @@ def _probed(table: Table, probe: Probe) -> Fit:
         e, ways["velocity_final"] = _fall(probe, falls, start, sign)
         if ways["velocity_final"] is REPORT["velocity_final"] and math.isnan(e):
             e = c  # the velocity repeats the force in its own formula
-    adds = "time" in table.lines and ("time", -1) in probe.answers(probe.state["time", 0])
+    adds = ("time", 0) in probe.state and ("time", -1) in probe.answers(probe.state["time", 0])
     six = Six(math.nan, math.nan, math.nan, c, e, impact_velocity(table))
     grows = ("depth", -1) in probe.answers(probe.state["depth", 0])
     fitted = Fit(
@@ -218,7 +218,12 @@ def _probed(table: Table, probe: Probe) -> Fit:
         return replace(fitted, ways={**ways, "deceleration": None})
     force = Force(probe, place, x or ("depth", 0), u or start, sign, e if line is None else None)
     numbers, way, centered = _numbers_of(force, table, e)
-    if way is REPORT["deceleration"]:
+    if way is REPORT["deceleration"] and numbers[0] * numbers[1] < 0:
+        way = None  # the one part of the force drives what the other one brakes
+        if ways.get("velocity_final") is VARIANTS["sign of the deceleration"]:
+            ways["velocity_final"] = REPORT["velocity_final"]
+            fitted = replace(fitted, sign=-sign)
+    elif way is REPORT["deceleration"]:
         way = _as_read(x, u, read, probe, end)
     return replace(
         fitted, six=Six(*numbers, *six[3:]), ways={**ways, "deceleration": way}, force=force,
@@ -369,9 +374,9 @@ def _fall(probe: Probe, place: Position, start: State, sign: float) -> tuple[flo
     u, a = probe.base[own[0]], probe.base[brake]
     for _ in range(60):  # find a deceleration that takes a good part of the velocity
         fall = abs(u - probe.value(place, {brake: a}, {}, {}))
-        if not 0 < fall < math.inf or 0.1 * abs(u) < fall < 10 * abs(u):
+        if not 0 < fall < math.inf or 0.05 * abs(u) < fall < 0.45 * abs(u):
             break
-        a *= abs(u) / fall
+        a *= abs(u) / fall / 4  # twice of which leaves a velocity above zero
     e, twice = ((u - probe.value(place, {brake: s * a}, {}, {})) / (s * a) * sign for s in (1, 2))
     value, far = (probe.value(place, {own[0]: s * u}, {}, {}) for s in (1, 2))
     same = own[0] in (start, ("velocity_final", -1))
@@ -550,7 +555,7 @@ def numbers_with(fitted: Fit, table: Table, cells: Cells, literals: Literals) ->
     result = {"c": depth - base["depth", -1] if fitted.depth_adds else depth}
     if fitted.brakes == "deceleration":
         u, falls = base[start_of_row(table)], probe.state[end_of_row(table)]
-        strong = {brake: u / six.e} if six.e and math.isfinite(six.e) else {}
+        strong = {brake: u / six.e / 4} if six.e and math.isfinite(six.e) else {}
         result["e"] = u - probe.value(falls, strong, cells, literals)
     if fitted.force is not None:
         speed = abs(six.V) / 3
@@ -561,7 +566,7 @@ def numbers_with(fitted: Fit, table: Table, cells: Cells, literals: Literals) ->
         numbers = centered_numbers(force, small, speed, abs(six.e) / 2 * fitted.centered)
         if numbers is not None:
             result |= dict(zip("GHD", numbers, strict=True))
-    if "time" in table.lines and table.lines["time"].computed:
+    if ("time", 0) in probe.state and table.lines["time"].computed:
         value = probe.value(probe.state["time", 0], {}, cells, literals)
         result["t"] = value - base["time", -1] if fitted.time_adds else value
     return result
@@ -645,6 +650,18 @@ def _lacks_square(fitted: Fit, slope: float, D: float) -> bool:
         return False
     power = math.log10(abs(slope) / (math.pi * D))
     return abs(power - round(power)) < 1e-8
+
+
+def grows_beyond(fitted: Fit, place: Position) -> bool:
+    """Whether a formula beside the table has the contact area D x - x² and no right end at R."""
+    D, speed = fitted.six.D, abs(fitted.six.V) / 3
+    if fitted.force is None or not 0 < D < math.inf:
+        return False
+    force = replace(fitted.force, place=place, sign=1.0, e=None)
+    tenth, third, deep = (force(part * D, speed) for part in (0.1, 0.3, 0.75))
+    if not tenth or not math.isclose(third / tenth, 0.21 / 0.09, rel_tol=1e-6):
+        return False
+    return not math.isclose(deep / tenth, 0.25 / 0.09, rel_tol=1e-6)
 
 
 def is_bounded(fitted: Fit) -> bool:

@@ -11,7 +11,7 @@ from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import Examination, near
 from replication.check.excerpt import judge_excerpt
 from replication.check.fit import is_part
-from replication.check.model import blank_inputs, refuse_other_model
+from replication.check.model import AnotherModelError, blank_inputs, refuse_other_model
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
 from replication.check.rows import fit_table
@@ -23,7 +23,7 @@ from replication.check.six import (
     origin,
     start_of_row,
 )
-from replication.check.table import Table, address
+from replication.check.table import Line, Table, address
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
 from replication.check.units import Equation, Quantity, equations, mended, state_units
 from replication.check.words import times_too, title, unit_text
@@ -37,6 +37,8 @@ _ABOUT = 0.05
 """The logarithm of a ratio up to which two numbers are about the same: 12 percent."""
 _LEAST_RATIO = 0.02
 """The target's density over the particle's is larger: magnesium over osmium is 0.08."""
+_MOST_POWER = 300.0
+"""Doubles reach to 1e308."""
 _VAGUE = 30
 """Numbers without formulas may miss an equation by so many times their uncertainty."""
 
@@ -140,11 +142,11 @@ def _other_ways(exam: Examination) -> None:
             column = start_of_row(table)[0]
         line = table.lines[column]
         cells = exam.cells(column, 2 if role == "depth" or column == "velocity_initial" else 1)
-        if line.usual is not None:  # a first row may have the right formula
-            formulas = table.evaluator.formulas
-            cells = [cell for cell in cells if formulas.get(cell) is line.usual] or cells
+        cells = _usual(line, cells)
         if role == "deceleration":
             cells = _first_wrong(exam) or cells
+        if way is None and _not_computed(exam, cells[0]):
+            continue
         if way is not None:
             exam.add("other scheme", cells, None, f"{way.name}: {way.says}")
         else:
@@ -171,6 +173,24 @@ def _without_drag(exam: Examination) -> None:
         exam.add("other scheme", exam.cells(exam.fitted.brakes, 2), None, text)
 
 
+def _not_computed(exam: Examination, place: Position) -> bool:
+    """Whether a formula of the rows reads one that is not computed, and has no stored value.
+
+    A name that nothing has is a fault; of other such formulas nothing can be said.
+    """
+    evaluator = exam.table.evaluator
+    for area in evaluator.areas(place):
+        reason = evaluator.reasons.get(area.corner)
+        if reason is None or evaluator.values.get(area.corner) is not None:
+            continue
+        if not reason.startswith("nothing is called"):
+            raise AnotherModelError(f"{address(area.corner, True)} is not computed: {reason}")
+        text = f"{formula_at(exam, area.corner)}: {reason}"
+        exam.add("odd formula", [area.corner], None, text)
+        return True
+    return False
+
+
 def _first_wrong(exam: Examination, off: float | None = None) -> list[Position]:
     """The cells of the first column beside the table that is no part of the right force.
 
@@ -183,8 +203,15 @@ def _first_wrong(exam: Examination, off: float | None = None) -> list[Position]:
     for line in feeding(table):
         if not is_part(fitted, line.place(index), exam.right_force(off)):
             rows = sorted(table.rows.items())
-            return [line.place(i) for k, i in rows if k >= 1 and i in line.values]
+            return _usual(line, [line.place(i) for k, i in rows if k >= 1 and i in line.values])
     return []
+
+
+def _usual(line: Line, cells: list[Position]) -> list[Position]:
+    """Those of some cells that have the usual formula of their line: others may be right."""
+    if line.usual is None:
+        return cells
+    return [cell for cell in cells if line.evaluator.formulas.get(cell) is line.usual] or cells
 
 
 # ---- equations that do not hold
@@ -243,13 +270,20 @@ def _without_unit(
     return broken, mendable
 
 
+def _clipped(power: float) -> float:
+    """A power of ten that a double can hold."""
+    return max(-_MOST_POWER, min(_MOST_POWER, power))
+
+
 def _broken_equations(
     exam: Examination, inputs: Inputs, found: Sequence[Equation], broken: Mapping[str, str]
 ) -> None:
     """Report the equations that do not hold, each where it is written."""
-    times = {eq.name: 10.0 ** eq.residual(inputs.powers) for eq in found}
-    rests_on = {"diameter": title("radius"), "mass": "the radius and the particle density",
-                "resistance": "beta and the flow stress"}  # fmt: skip
+    times = {eq.name: 10.0 ** _clipped(eq.residual(inputs.powers)) for eq in found}
+    rests_on = {
+        "diameter": title("radius"), "radius": title("diameter"),
+        "mass": "the radius and the particle density", "resistance": "beta and the flow stress",
+    }  # fmt: skip
     for role, source in rests_on.items():
         typed_over = (
             exam.fitted.probe is not None
@@ -264,10 +298,22 @@ def _broken_equations(
     if "V" in broken and start is not None and start not in {d.place for d in exam.differences}:
         velocity = inputs.cells["velocity"]
         where = address(velocity.cell, True) if velocity.cell else "its name"
-        start = origin(exam.table, start)
+        start = _written(exam.table, origin(exam.table, start))
         kind = "odd formula" if start in exam.table.evaluator.formulas else "typed number"
         text = f"the first velocity is {times['V']:.6g} times {title('velocity')} in {where}"
         exam.add(kind, [start], velocity.value, text)
+
+
+def _written(table: Table, place: Position) -> Position:
+    """The cell beside a table in which a number is computed that others only repeat."""
+    evaluator = table.evaluator
+    shown = evaluator.areas(place)
+    while len(shown) == 1 and shown[0].corner in evaluator.formulas:
+        before = shown[0].corner
+        if before in table.places or evaluator.values.get(before) != evaluator.values[place]:
+            break
+        place, shown = before, evaluator.areas(before)
+    return place
 
 
 _PARTS_OF = {"mass": ("particle_density",), "resistance": ("beta", "flow_stress")}
@@ -290,6 +336,7 @@ def _is_typed_over(inputs: Inputs, role: str, times: float) -> bool:
         return False
     parts = _PARTS_OF.get(role, ())
     typed = role in inputs.cells and not inputs.cells[role].computed
+    typed = typed and inputs.how.get(role) != "unread"
     return typed and bool(parts) and all(inputs.how.get(part) == "unread" for part in parts)
 
 
@@ -329,6 +376,26 @@ def _repeats_radius(exam: Examination, inputs: Inputs) -> Position | None:
     return None
 
 
+def _beta_typed(
+    exam: Examination, inputs: Inputs, blamed: Sequence[Position], times: float
+) -> bool:
+    """Report another beta that is typed into the force beside the cell of the flow stress."""
+    beta, stress = inputs.cells.get("beta"), inputs.cells.get("flow_stress")
+    shape = exam.table.evaluator.formulas.get(blamed[0])
+    if beta is None or stress is None or beta.cell is None or shape is None:
+        return False
+    own = exam.table.evaluator.areas(blamed[0])
+    typed = [n for n in shape.literals if near(n, beta.value * times)]
+    if not typed or any(area.covers(beta.cell) for area in own):
+        return False
+    if stress.cell is None or not any(area.covers(stress.cell) for area in own):
+        return False
+    where = address(beta.cell, beta.cell[0] != exam.table.sheet)
+    text = f"{title('beta')} is typed as {typed[0]:.10g}, where {where} should be read"
+    exam.add("typed constant", blamed, where, text, formula_at(exam, blamed[0]))
+    return True
+
+
 def _wrong_force(
     exam: Examination, inputs: Inputs, broken: Mapping[str, str], times: Mapping[str, float]
 ) -> None:
@@ -341,11 +408,14 @@ def _wrong_force(
         return
     both = {"G", "H"} <= broken.keys() and math.isclose(times["G"], times["H"], rel_tol=1e-8)
     off = times["G"] if both else times.get("H") if parts == ["H"] else None
-    blamed = _first_wrong(exam, off) or exam.cells(exam.fitted.brakes, 1)
+    brakes = exam.table.lines[exam.fitted.brakes]
+    blamed = _first_wrong(exam, off) or _usual(brakes, exam.cells(exam.fitted.brakes, 1))
     if broken.get("D") == "area with R for D" and (cell := _repeats_radius(exam, inputs)):
         text = f"{formula_at(exam, cell)} does not give {title('diameter')}: it repeats the radius"
         exam.add("odd formula", [cell], None, text)
         parts.remove("D")
+    if parts == ["H"] and _beta_typed(exam, inputs, blamed, times["H"]):
+        return
     if not parts or blamed[0] in {d.place for d in exam.differences}:
         return
     if both:
@@ -376,7 +446,7 @@ def _other_steps(exam: Examination, broken: Mapping[str, str]) -> None:
         blamed[end] = 1
     accused = {cell for d in exam.differences for cell in d.cells}
     for role, first in blamed.items():
-        cells = exam.cells(role, first)
+        cells = _usual(exam.table.lines[role], exam.cells(role, first))
         odd = exam.fitted.ways.get("depth" if role == "depth" else "velocity_final")
         if accused.intersection(cells) or (role != "time" and odd not in (*REPORT.values(),)):
             continue

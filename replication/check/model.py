@@ -47,6 +47,7 @@ def refuse_other_model(
             raise AnotherModelError(
                 f"{where}: {title(role)} is {source.value:g}: no impact has that"
             )
+    _refuse_zero(inputs)
     if fitted.probe is None:
         if not (_rows_agree(exam) and _steps_agree(found, inputs, slack)):
             raise AnotherModelError(_sentence(exam, "deceleration"))
@@ -67,12 +68,25 @@ def refuse_other_model(
     )
 
 
+def _refuse_zero(inputs: Inputs) -> None:
+    """Raise AnotherModelError if a cell is zero that the label calls an input of the rows."""
+    for source in inputs.sources:
+        label, unit = inputs.label(source)
+        roles = input_roles(label, unit) if label and source.cell and not source.value else ()
+        if len(roles) == 1 and "stop_velocity" not in roles:
+            where = address(source.cell, True) if source.cell else ""
+            (role,) = roles
+            raise AnotherModelError(f"{where}: {title(role)} is 0: no impact has that")
+
+
 def blank_inputs(exam: Examination) -> list[Position]:
     """The blank cells that the force reads as the density or the resistance of the target.
 
     Without them the force lacks one of its parts; it has another value if numbers stand there.
     """
     fitted = exam.fitted
+    if fitted.force is None and fitted.probe is not None:
+        return _blank_force(exam)
     lacks = (VARIANTS["no drag"], VARIANTS["no resistance"])
     if fitted.force is None or fitted.ways.get("deceleration") not in lacks:
         return []
@@ -87,6 +101,22 @@ def blank_inputs(exam: Examination) -> list[Position]:
     if fitted.force(depth, speed) == filled:
         return []
     return [place for place in blank if value([p for p in blank if p != place]) != filled]
+
+
+def _blank_force(exam: Examination) -> list[Position]:
+    """The blank cells without which there is no force at all."""
+    fitted, blank = exam.fitted, sorted(trace(exam.table, exam.fitted).blank)
+    probe = fitted.probe
+    if probe is None or (fitted.brakes, 0) not in probe.state:
+        return []
+    place = probe.state[fitted.brakes, 0]
+
+    def value(cells: Sequence[Position]) -> float:
+        return probe.value(place, {}, dict.fromkeys(cells, _LARGE), {})
+
+    if not fitted.brakes.startswith("decel") or value([]) != 0 or value(blank) == 0:
+        return []
+    return [p for p in blank if value([q for q in blank if q != p]) != value(blank)]
 
 
 def _known_families(inputs: Inputs) -> tuple[int, int]:

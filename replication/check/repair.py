@@ -6,6 +6,7 @@ is no column of the scheme any more. The workbook is then judged as it was meant
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from itertools import takewhile
 
 from spreadsheets.evaluate import Evaluator, Reference, Shape, column_letters, written
 from spreadsheets.foreign import Book, Cell, Position
@@ -66,19 +67,23 @@ def _meant(
     that is meant. That is the first that it reads, or the one before: the first row may have a
     formula of its own.
     """
-    read = []
+    read, own = [], set(cells)
     for _, row, column in cells:
         area = ref.at(row, column)
         read.append((area.sheet, area.top, area.left))
-    numbers = sum(type(evaluator.values.get(p)) is float or p in evaluator.formulas for p in read)
-    blank = len(read) - numbers
+    # A reference to the column itself slips from a cell if others stand between that and the rows.
+    before_rows = list(takewhile(lambda p: p not in own, read)) if own.intersection(read) else read
+    numbers = sum(
+        type(evaluator.values.get(p)) is float or p in evaluator.formulas for p in before_rows
+    )
+    blank = len(before_rows) - numbers
     sheet, row, column = read[0]
     before = (sheet, row, column - 1) if across else (sheet, row - 1, column)
     candidates = [p for p in (before, read[0]) if type(evaluator.values.get(p)) is float]
     for place in candidates:
         if place in fixed and blank:
             return place
-    return candidates[-1] if candidates and 0 < numbers <= len(read) / 2 else None
+    return candidates[-1] if candidates and 0 < numbers <= len(before_rows) / 2 else None
 
 
 def _with_dollars(shape: Shape, ref: Reference, meant: Position, place: Position) -> str:

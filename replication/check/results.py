@@ -2,25 +2,25 @@
 
 import math
 import re
+import sys
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
 from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
-from replication.check.ends import OTHER_STOP
+from replication.check.ends import NEAR_END, OTHER_STOP
 from replication.check.examination import NO_FAULT, Difference, Examination, near
 from replication.check.labels import label_of
+from replication.check.responses import is_plain
 from replication.check.table import LEAST, address
 from replication.check.taken import case_of, report_inputs
-from replication.check.words import number_in, result_of, times_too, unit_text
+from replication.check.words import number_in, power_of_ten, result_of, times_too, title, unit_text
 from replication.text import with_unit
 from spreadsheets.evaluate import Evaluator, written
 from spreadsheets.foreign import Position
 from spreadsheets.scalars import Area
 
-_NEAR_END = 3
-"""A result that shows one of so many rows before the last was meant to show the last."""
 _LIST = 4
 """So far left of a result the number of its row may stand."""
 _ANOTHER_ROW = re.compile(
@@ -143,6 +143,7 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
             continue
         if any(r.place in read and r.over_diameter for r in found):
             continue  # it shows another result, which is judged
+        _typed_radius(result, evaluator)
         label, unit, sure = label_of(result.place, evaluator)
         fault = _fault(result, found, label, unit, sure)
         if fault is not None:
@@ -155,6 +156,22 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
             shown = written(formula.key, result.place[1], result.place[2])
             exam.add(kind, [result.place], expected, text, shown if kind == "odd formula" else unit)
             wrong.add(result.place)
+
+
+def _typed_radius(result: Result, evaluator: Evaluator) -> None:
+    """Report the radius, or the diameter, typed into X/R, where its cell should be read."""
+    exam, shape = result.exam, evaluator.formulas[result.place]
+    for role in ("radius", "diameter") if result.ratio else ():
+        entry = exam.inputs.get(role)
+        if entry is None or entry.place is None or is_plain(entry.value):
+            continue
+        for number in shape.literals:
+            if not is_plain(number) and power_of_ten(number / entry.value) is not None:
+                where = address(entry.place, entry.place[0] != result.place[0])
+                text = f"{title(role)} is typed as {number:.10g}, where {where} should be read"
+                shown = written(shape.key, result.place[1], result.place[2])
+                exam.add("typed constant", [result.place], where, text, shown)
+                return
 
 
 Fault = tuple[str, str | None, str]
@@ -171,6 +188,9 @@ def _fault(
     x, final = table.number("depth", result.k), table.number("depth", last)
     if result.k != last and x != final:
         return _other_row(result, found, label, named)
+    if result.exam.cut_short and named == "depth" and not result.ratio:
+        text = f"the label says the final depth, but the rows end at step {last}, before the stop"
+        return "odd formula", None, text
     if result.over_diameter:
         wrong = result.power == 0 and named == "ratio" and not _DIAMETER.search(label)
         text = "the number is the depth over the diameter, not over the radius"
@@ -200,7 +220,7 @@ def _other_row(
     same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
     if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label) or _says_row(result):
         return None
-    close = last - _NEAR_END <= result.k < last or named in ("depth", "ratio")
+    close = last - NEAR_END <= result.k < last or named in ("depth", "ratio")
     shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
     if not close or _ANOTHER_ROW.search(label) or (shows_last and named is None):
         return None
@@ -334,8 +354,14 @@ def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]
                 break
 
 
+def _double(value: Fraction) -> float:
+    """A number as a double; the largest ones stand for what is beyond them."""
+    most = sys.float_info.max
+    return float(max(-Fraction(most), min(Fraction(most), value)))
+
+
 def _judged(name: str, place: Position, value: Fraction, typed: bool) -> PrintedCell:
     """Compare a value in SI units with the claim of this name."""
     claim = load().claims[name]
     shown = value / claim.si
-    return PrintedCell(claim, place, float(shown), claim.target().contains(value), typed)
+    return PrintedCell(claim, place, _double(shown), claim.target().contains(value), typed)

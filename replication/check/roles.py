@@ -92,6 +92,7 @@ class _Roles:
     inputs: Inputs
     D: float
     known: dict[Position, frozenset[str]] = field(default_factory=dict)
+    parts: set[Position] = field(default_factory=set)
 
     def roles(self, source: Source) -> frozenset[str]:
         """The inputs that the label of a cell, or the name of a number, may name."""
@@ -153,16 +154,43 @@ class _Roles:
     def size(self, typed: Sequence[Source], made: Sequence[Source]) -> None:
         """Give out radius and diameter."""
         cells, derived = self.inputs.cells, self.inputs.derived
+        typed, made = self.computed_radius(typed, made)
         for source in typed:
             self.put(cells, self.radius_or_diameter(source), source)
         for source in made:
             named = "diameter" in self.roles(source)
+            if self.is_wrong_half(source, typed):
+                derived["radius"] = source
+                continue
             if named or self.rests_on(source, cells.get("radius")):
                 if not _is_alias(source, typed):
                     role = "diameter" if "radius" in cells else self.radius_or_diameter(source)
                     self.put(derived, role, source)
             elif not typed:
                 self.put(derived, self.radius_or_diameter(source), source)
+
+    def is_wrong_half(self, source: Source, typed: Sequence[Source]) -> bool:
+        """Whether a formula for the radius is not half of the only typed cell, a diameter."""
+        if self.roles(source) != {"radius"} or len(typed) != 1:
+            return False
+        (other,) = typed
+        power = math.log10(abs(source.value / other.value) * 2)
+        is_diameter = self.roles(other) == {"diameter"} and self.rests_on(source, other)
+        return is_diameter and abs(power - round(power)) > CLOSE
+
+    def computed_radius(
+        self, typed: Sequence[Source], made: Sequence[Source]
+    ) -> tuple[Sequence[Source], Sequence[Source]]:
+        """Take a radius that is computed from several cells for a typed one, without these."""
+        members = {"radius", "diameter"}
+        for source in made:
+            parts = [other for other in typed if self.rests_on(source, other)]
+            several = len(parts) > 1 and not all(self.roles(part) & members for part in parts)
+            if several and self.roles(source) & members == {"radius"}:
+                left = [other for other in typed if other not in parts]
+                self.parts |= {part.cell for part in parts if part.cell is not None}
+                return [source, *left], [other for other in made if other is not source]
+        return typed, made
 
     def radius_or_diameter(self, source: Source) -> str:
         """Which of both a cell is: by D = 2R up to a power of ten, or by its label."""
@@ -178,6 +206,7 @@ class _Roles:
         """Give out mass and particle density."""
         cells, derived = self.inputs.cells, self.inputs.derived
         radius = cells.get("radius") or cells.get("diameter")
+        typed, made = self.converted(typed, made, radius)
         if made and all(source.cell is None for source in typed):
             self.put(derived, "mass", made[0])  # of numbers that are typed into its formula
             return
@@ -191,10 +220,25 @@ class _Roles:
             unsaid = "particle_density" if of_density else "mass"
             self.put(cells, next(iter(label)) if len(label) == 1 else unsaid, source)
 
+    def converted(
+        self, typed: Sequence[Source], made: Sequence[Source], radius: Source | None
+    ) -> tuple[Sequence[Source], Sequence[Source]]:
+        """Take a particle density that is computed, as by a factor in a cell, for a typed one."""
+        members = {"mass", "particle_density"}
+        if any(self.roles(source) & members for source in typed):
+            return typed, made
+        for source in made:
+            is_density = self.roles(source) & members == {"particle_density"}
+            if is_density and not self.rests_on(source, radius):
+                left = [other for other in typed if not self.rests_on(source, other)]
+                return [source, *left], [other for other in made if other is not source]
+        return typed, made
+
     def strength(self, typed: Sequence[Source], made: Sequence[Source]) -> None:
         """Give out resistance, beta and flow stress."""
         cells, derived = self.inputs.cells, self.inputs.derived
         members = set(FAMILIES["strength"])
+        made = [source for source in made if not self.has_mass(source)] or made
         for source in made:  # a beta or a flow stress may be computed from other numbers
             label = self.roles(source) & {"beta", "flow_stress"}
             if len(label) == 1:
@@ -224,6 +268,11 @@ class _Roles:
                 or (named and (product or "resistance" not in cells))
             ):
                 self.put(derived, "resistance", source)
+
+    def has_mass(self, source: Source) -> bool:
+        """Whether a formula reads a mass, or what the mass rests on: it is no resistance."""
+        others = (o for o in self.inputs.sources if o.family in ("inertia", "size"))
+        return any(self.rests_on(source, other) for other in others)
 
     def is_stress(self, source: Source) -> bool:
         """Whether the label of a cell has a unit of stress beside its words.
@@ -265,7 +314,7 @@ class _Roles:
         for source in sorted(single, key=lambda s: s.computed):
             roles = self.roles(source)
             plain = is_plain(source.value) and source.value != 0
-            if source.cell not in taken and len(roles) == 1 and not plain:
+            if source.cell not in taken | self.parts and len(roles) == 1 and not plain:
                 (role,) = roles
                 if role not in derived and self.gives_way(cells.get(role), source):
                     (derived if source.computed else cells)[role] = source

@@ -164,6 +164,11 @@ class Line:
         return max((abs(b - a) for a, b in pairwise(ordered)), default=0.0)
 
     @cached_property
+    def negative(self) -> bool:
+        """Whether most numbers are below zero."""
+        return sum(value < 0 for value in self.values.values()) > len(self.values) / 2
+
+    @cached_property
     def _digits(self) -> tuple[int, int]:
         """The most digits of a typed or printed number, and the power of ten of the last digit."""
         printed = self.evaluator.book.digits.get(self.sheet, {})
@@ -487,7 +492,10 @@ class _Pair(NamedTuple):
 
 def _pairs_of(known: Sequence[Line], close: float) -> Iterator[_Pair]:
     """The pairs of lines that may be depth and velocity."""
-    depths = [o for o in known if o.grows or (o.computed and _reads(o, o))]
+    depths = [
+        o for o in known
+        if (o.grows and (o.computed or not o.negative)) or (o.computed and _reads(o, o))
+    ]  # fmt: skip
     speeds = [o for o in known if (o.positive or o.computed) and not _is_constant(o)]
     if close == _LOOSE:
         depths, speeds = ([o for o in some if o.computed] for some in (depths, speeds))

@@ -179,7 +179,9 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         known = (*report[role], OTHER_STEP) if role == "step" else report[role]
         off = next(filter(None, (_power_off(entry, value) for value in known)), 0)
         is_slip = off % 3 == 0 or off % 2 == 0  # a unit ten times another one is unusual
-        if off and is_slip and len(others) == 1 and len(typed) - 1 >= _ALIKE:
+        alone = len(others) == 1 and len(typed) - 1 >= _ALIKE
+        weak = role == "flow_stress" and entry.si < _NO_BETA and len(typed) - len(others) >= _ALIKE
+        if off and is_slip and (alone or weak):
             text = (
                 f"the formulas take {title(role)} as {quantity(entry.si, role)}, {times_too(off)}"
             )
@@ -222,11 +224,11 @@ def _power_off(entry: Input, value: float) -> int:
 
     A mass, which the report does not print, may be typed with few digits.
     """
-    if entry.si <= 0:
+    if not 0 < entry.si < math.inf:
         return 0
     if entry.role == "mass" and (digits := digits_of(entry.value)[0]) >= _DIGITS:
         value = float(f"{value:.{digits - 1}e}")
-    power = math.log10(entry.si / value)
+    power = math.log10(entry.si) - math.log10(value)
     return round(power) if abs(power - round(power)) < 1e-9 else 0
 
 

@@ -123,7 +123,11 @@ def _of_force(inputs: Inputs, D: Quantity, G: Quantity, H: Quantity) -> _Sides:
         sides["D"] = (D, _of(diameter))
         if R is not None:
             sides["diameter"] = (_of(diameter), _number(2.0) * R)
-    if R is not None and "diameter" not in sides:
+    if R is None and diameter is not None and "radius" in derived:
+        sides["radius"] = (_of(derived["radius"]), _of(diameter) / _number(2.0))
+        sides["D"] = (D, _number(2.0) * _of(derived["radius"]))
+        R = _of(derived["radius"])
+    elif R is not None and "diameter" not in sides:
         sides["D"] = (D, _number(2.0) * R)
     R = R or (_of(diameter) if diameter is not None else D) / _number(2.0)
     M, mass = None, cells.get("mass") or derived.get("mass")

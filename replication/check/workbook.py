@@ -101,7 +101,11 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
         try:
             exams.append(
                 examine(
-                    table, names, cells, _beside(table, idle, found), _typed_numbers(table, found)
+                    table,
+                    names,
+                    cells,
+                    _beside(table, idle, found),
+                    _typed_numbers(table, found) + _unused(table, idle),
                 )
             )
         except AnotherModelError as error:
@@ -324,6 +328,11 @@ def _beside(table: Table, idle: Sequence[Position], found: Sequence[Table]) -> l
         others = {other.sheet for other in found} - {table.sheet}
         own = [p for p in own if p[0] not in others]
     return own[:500]
+
+
+def _unused(table: Table, idle: Sequence[Position]) -> list[Position]:
+    """The formulas on the sheet of a table that no table reads: of a mass, say."""
+    return [p for p in idle if p in table.evaluator.formulas and p[0] == table.sheet][:100]
 
 
 def _typed_numbers(table: Table, found: Sequence[Table]) -> list[Position]:

@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, Phase, given, settings
 from hypothesis import strategies as st
 
 from replication.workbook import Workbook
-from spreadsheets import evaluate
+from spreadsheets import evaluate, scalars
 from spreadsheets.engines import Formualizer, address
 from spreadsheets.evaluate import Evaluator, parse, shape_key
 from spreadsheets.foreign import Book, Cell, Position, read
@@ -368,7 +368,8 @@ def test_formulas_that_read_too_much_together_are_left_alone(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """Each reads 200 cells: the first three, 600 together, are within 700."""
-    monkeypatch.setattr(evaluate, "MAX_WORK", 700)
+    for module in (evaluate, scalars):
+        monkeypatch.setattr(module, "MAX_WORK", 700)
     ranges = {(row, 1): 1.0 for row in range(1, 101)}
     sums = {(row, 3): Cell("=SUMPRODUCT(A$1:A$100,A$1:A$100)".replace("A$", "$A$"), 100.0)
             for row in range(1, 11)}  # fmt: skip

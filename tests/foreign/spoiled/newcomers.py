@@ -123,7 +123,7 @@ CASES = (
     ),
     case(
         "step that no $ fixes, another input below it",
-        fault("odd formula", "F10", "F11"),
+        fault("odd formula", "F9", "F10", "F11"),
         put("I9", "dt"),
         put("J9", "=E2"),
         put("I10", "v stop"),
