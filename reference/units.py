@@ -6,6 +6,7 @@ never rounds: an inch is 254/10000 m, and a pound-force 0.45359237 * 9.80665 N.
 """
 
 import re
+from collections.abc import Sequence
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import cache
@@ -130,16 +131,39 @@ def is_known(unit: str) -> bool:
     return _factors(unit) is not None
 
 
-def _advice(unit: str) -> str:
-    """Say which units an unknown one is probably meant to be, in capitals or not."""
-    names: dict[str, list[str]] = {}
-    for name in _UNITS:
-        names.setdefault(name.lower(), []).append(name)
-    text = unit[:_LONGEST].lower()
-    similar = [text] if text in names else get_close_matches(text, names, n=2, cutoff=0.7)
-    if meant := [name for lower in similar for name in names[lower]]:
+def _advice(unit: str, expected: str | None = None) -> str:
+    """Say which units an unknown one is probably meant to be, in capitals or not.
+
+    If the `expected` dimension is known, a unit that measures it may be less similar.
+    """
+    meant = [] if expected is None else _similar(unit, _units_like(expected), cutoff=0.5)
+    if meant := meant or _similar(unit, [*_UNITS], cutoff=0.7):
         return f"did you mean {' or '.join(meant)}?"
     return "take one such as um, ns, m/s, kg/m^3, MPa or ksi"
+
+
+def _units_like(expected: str) -> list[str]:
+    """Return the usual units that measure what the expected one does.
+
+    Those of one letter are left out, as that letter is in many words.
+    """
+    dimension = unit_dimension(expected)
+    simple = [name for name, (_, of) in _UNITS.items() if of == dimension and len(name) > 1]
+    return simple + [unit for unit in _QUOTIENTS if unit_dimension(unit) == dimension]
+
+
+_QUOTIENTS = ("m/s", "km/s", "kg/m^3", "g/cm^3")
+"""The usual units of velocity and density."""
+
+
+def _similar(unit: str, units: Sequence[str], cutoff: float) -> list[str]:
+    """Return those of some units that are written like this one, in capitals or not."""
+    names: dict[str, list[str]] = {}
+    for name in units:
+        names.setdefault(name.lower(), []).append(name)
+    text = unit[:_LONGEST].lower()
+    similar = [text] if text in names else get_close_matches(text, names, n=2, cutoff=cutoff)
+    return [name for lower in similar for name in names[lower]]
 
 
 def to_si(unit: str) -> Fraction:
@@ -163,9 +187,13 @@ def unit_dimension(unit: str) -> Dimension:
 def same_dimension(first: str, second: str) -> bool:
     """Return whether two units measure the same kind of quantity.
 
+    Raises UnitError if the first is unknown, with units that measure what the second does.
+
     >>> same_dimension("ksi", "MPa"), same_dimension("um", "MPa")
     (True, False)
     """
+    if not is_known(first):
+        raise UnitError(f"unknown unit {first[:_LONGEST]!r}: {_advice(first, second)}")
     return unit_dimension(first) == unit_dimension(second)
 
 

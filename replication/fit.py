@@ -7,6 +7,7 @@ residuals, each over its uncertainty if the data have that.
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from pathlib import Path
 
 from replication.cases import INPUTS
@@ -92,10 +93,12 @@ def read_measurements(path: Path, impact: Impact) -> list[Measurement]:
     measured = "normalized_depth" if by_name["normalized_depth"] else "depth"
     for name in ("velocity", measured):
         if by_name[name] is None:
-            heads = ", ".join(quoted(column.head) for column in columns[:6])
+            heads = {column.name: quoted(column.head) for column in columns}
+            similar = get_close_matches(name, heads, n=1)
+            named = f"name {heads[similar[0]] if similar else 'one'} so"
             raise ValueError(
-                f"{path} has no column {name!r}: name one so, such as '{name} [{_UNITS[name]}]' "
-                f"(it has {heads})"
+                f"{path} has no column {name!r}: {named}, such as '{name} [{_UNITS[name]}]' "
+                f"(it has {', '.join([*heads.values()][:6])})"
             )
     units = _UNITS | {"uncertainty": _UNITS[measured]}
     numbers = {name: column.numbers(units[name]) for name, column in by_name.items() if column}
@@ -217,4 +220,6 @@ def _single(measurement: Measurement) -> float:
     except InputError as error:
         where = f"line {measurement.line}: " if measurement.line else ""
         radii = f"{measurement.depth / measurement.radius:.3g} times the radius"
-        raise ValueError(f"{where}the depth is {radii}: {error}") from error
+        unitless = measurement.line and measurement.depth > 1e3 * measurement.radius
+        meant = "; does its head lack a unit, such as 'depth [um]'?" if unitless else ""
+        raise ValueError(f"{where}the depth is {radii}: {error}{meant}") from error

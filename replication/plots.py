@@ -507,8 +507,8 @@ def _fitted(fit: Fit) -> str:
 MOST_DRAWN = 1_000_000
 """The most cases of a sweep that are drawn: their results are held in memory."""
 
-QUANTILES = {0.05: ":", 0.5: "-", 0.95: ":"}
-"""The quantiles that a histogram shows, with the dashes of their lines."""
+QUANTILES = {0.05: 0.8, 0.5: 1.6, 0.95: 0.8}
+"""The quantiles that a histogram shows, with the widths of their lines; the dashes are its own."""
 
 _QUANTILES_TITLE = "quantiles of 5, 50 and 95 %"
 
@@ -754,8 +754,8 @@ def _histograms(
             words = f"{label}: {numbers}" if label else numbers
             heights, _ = np.histogram(own, edges, density=True)
             panel.stairs(heights, edges, label=words, color=look.color, linestyle=look.line, lw=1.2)
-            for value, dashes in zip(quantiles, QUANTILES.values(), strict=True):
-                panel.axvline(value, color=look.color, linestyle=dashes, linewidth=0.8)
+            for value, width in zip(quantiles, QUANTILES.values(), strict=True):
+                panel.axvline(value, **look.of_line, linewidth=width)
         if points and quantity in points.columns:
             values = quantity.shown(points.columns[quantity])
             _own_points(panel, values, np.zeros(len(values)), None, points.file)

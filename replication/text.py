@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
 from fractions import Fraction
 from itertools import zip_longest
-from textwrap import wrap
+from textwrap import fill, wrap
 from typing import Any, NamedTuple
 
 from reference.units import superscript, written
@@ -152,6 +152,22 @@ def numbers(heads: tuple[str, ...], rows: Iterable[Iterable[float | None]]) -> l
     """
     texts = (tuple("" if x is None else number(x, 9) for x in row) for row in rows)
     return aligned([heads, *texts], right=True)
+
+
+def prose(text: str, width: int, indent: str = "", hanging: str = "") -> str:
+    """Wrap a text to lines of a width, between words only.
+
+    indent and hanging: blanks before the first line, and before the others.
+
+    >>> print(prose("slow, 1 m/s: refused", 10, hanging="  "))
+    slow, 1
+      m/s:
+      refused
+    """
+    return fill(
+        text, width, initial_indent=indent, subsequent_indent=hanging, break_on_hyphens=False,
+        break_long_words=False,
+    )  # fmt: skip
 
 
 def columns(rows: Sequence[tuple[str, ...]], width: int) -> str:

@@ -411,7 +411,8 @@ class Record(_Part, frozen=True):
         """
         claims = {claim.id: claim for claim in self.claims}
         if name not in claims:
-            raise KeyError(f"there is no claim {name!r}; {advice(name, claims, 'see `claims`')}")
+            hint = advice(name, claims, "`coldspray claims` lists the ids")
+            raise KeyError(f"there is no claim {name!r}; {hint}")
         return claims[name]
 
     def __repr__(self) -> str:

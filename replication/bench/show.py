@@ -11,7 +11,7 @@ import numpy as np
 from replication.bench.measure import MEASURES, Point, met, ranked
 from replication.bench.peers import SOLVERS
 from replication.plots import INK, SHADE, content, styled
-from replication.text import aligned, columns, json_text, number, rows_csv
+from replication.text import aligned, columns, json_text, number, prose, rows_csv
 from spreadsheets.safely import write_folder
 
 if TYPE_CHECKING:
@@ -28,21 +28,26 @@ Times are for one case, in us: best and median of {repeats}, taken in turn, or o
 def texts(record: dict[str, Any], width: int = 10_000) -> dict[str, str]:
     """Return the text files of a run, by file name.
 
-    Where a table is wider than `width`, final depth and history have one each.
+    Where a table is wider than `width`, final depth and history have one each. Prose is wrapped to
+    it.
     """
     cases = record["cases"]
     repeats = "1 repeat" if record["repeat"] == 1 else f"{record['repeat']} repeats"
-    lines = [
-        ", ".join(f"{name} {value}" for name, value in record["machine"].items()),
-        _HEAD.format(repeats=repeats, limit=record["limit"]),
-    ]
+    machine = ", ".join(f"{name} {value}" for name, value in record["machine"].items())
+    head = _HEAD.format(repeats=repeats, limit=record["limit"])
+    lines = [prose(line, width) for line in [machine, *head.splitlines()]]
     for case in cases:
         lines += [
             "",
             f"{case['name']}: {case['depth'] * 1e6:.7g} um",
             *_table(case["points"], width),
         ]
-    lines += ["", "What should I use for N digits?", *_answers(cases), ""]
+    lines += [
+        "",
+        "What should I use for N digits?",
+        *(prose(answer, width, hanging="    ") for answer in _answers(cases)),
+        "",
+    ]
     rows = [{"case": case["name"], **point} for case in cases for point in case["points"]]
     csv = rows_csv(rows)
     return {"bench.txt": "\n".join(lines), "bench.json": json_text(record), "bench.csv": csv}
@@ -66,7 +71,8 @@ def _table(points: Sequence[Point], width: int) -> Iterator[str]:
     yield from table
     for point in points:
         if point["gap"]:
-            yield "- {method}, {setting}, {}: {gap}".format(MEASURES[point["measure"]], **point)
+            gap = "- {method}, {setting}, {}: {gap}".format(MEASURES[point["measure"]], **point)
+            yield prose(gap, width, hanging="  ")
 
 
 def _cells(point: Point | None) -> tuple[str, ...]:

@@ -67,12 +67,20 @@ def _list(options: argparse.Namespace, ledger: "Ledger", listed: "Iterable[Claim
         listed = [claim for claim in listed if judge.assess(claim).verdict == options.verdict]
     record = [_record(claim, options.verdict) for claim in listed]
     rows = [
-        (claim.id, quantity(claim.shown, claim.unit), claim.kind, str(claim.place))
-        for claim in listed
+        (claim.id, quantity(claim.shown, claim.unit), claim.kind, _where(claim)) for claim in listed
     ]
+    heads = ("id", "printed", "kind", "line")
     nothing = f"no such claim is {options.verdict}"
-    text = columns(rows, width(piped=10_000)) if rows else nothing
+    text = columns([heads, *rows], width(piped=10_000)) if rows else nothing
     return put(options, record, lambda: text)
+
+
+def _where(claim: "Claim") -> str:
+    """Return where a claim stands, so short that most rows fit a terminal: without the section."""
+    place = claim.place
+    if place.cell:
+        return f"cell {place.cell}"
+    return f"{place.line}, Eq. {place.equation}" if place.equation else str(place.line)
 
 
 def _record(claim: "Claim", verdict: "Verdict | None") -> dict[str, Any]:

@@ -68,7 +68,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     own = parser.add_argument_group(
         "Frank and Zook",
         "Inputs of their models alone. The defaults are printed in section 3 of the report. Their "
-        "resistance is fitted to their model: that of the case is not used in its place.",
+        "resistance is fitted to their model: that of the case has no say in it.",
     )
     report = modelled("frank-zook", BETA_5)
     for name, flag in OPTIONS.items():
@@ -83,13 +83,14 @@ def run(options: argparse.Namespace) -> int:
     case, warnings = case_of(options)
     typed = given_inputs(options)
     names = list(DEPTH_MODELS) if options.models else [options.model]
-    own = _own_inputs(options, typed, names)
+    _refuse_without_say(options, typed, names)
+    own = _own_inputs(options, names)
     results = [_result(name, case, own, typed) for name in names]
     strength = _strength(options.particle_strength)
     threshold = None
     if strength is not None:
         threshold = penetration_threshold(strength, case.target_resistance, case.particle_density)
-    if "resistance" in own and "resistance" not in typed:
+    if "resistance" in own:
         warnings += doubt("resistance", own["resistance"], OPTIONS["resistance"])
     record: dict[str, Any] = {"inputs": inputs_of(case), "models": results}
     if not options.models:
@@ -105,39 +106,34 @@ def run(options: argparse.Namespace) -> int:
     return put(options, record, text, warnings=warnings)
 
 
-def _own_inputs(
+def _refuse_without_say(
     options: argparse.Namespace, typed: Collection[str], names: Sequence[str]
-) -> dict[str, float]:
-    """Return the inputs given that are not the case's; ValueError if no model asked for has them.
+) -> None:
+    """Raise ValueError if an option gives a resistance of the case, and nothing asked for uses it.
 
-    `typed` are the inputs of the case that options gave. To a model with a resistance of its own,
-    if it is the only one, --resistance gives that; its factors would have no say.
+    `typed` are the inputs of the case that options gave. The threshold uses it whatever the models.
     """
-    texts = {name: getattr(options, flag[2:].replace("-", "_")) for name, flag in OPTIONS.items()}
-    texts = {name: text for name, text in texts.items() if text is not None}
-    flags = dict(OPTIONS)
-    takes_own = [name for name in names if DEPTH_MODELS[name].own]
-    if texts and not takes_own:
-        raise ValueError(
-            f"{flags[next(iter(texts))]} is no input of the model {names[0]}: add --model "
-            "frank-zook or --models"
-        )
-    if takes_own == list(names):
-        for name in ("beta", "flow_stress"):
+    if options.particle_strength is None and all(DEPTH_MODELS[name].own for name in names):
+        for name in ("beta", "flow_stress", "resistance"):
             if name in typed:
                 raise ValueError(
                     f"{option(name)} has no say in the model {names[0]}, whose resistance is its "
                     f"own: give {OPTIONS['resistance']}"
                 )
-        if "resistance" in typed and "resistance" in texts:
-            raise ValueError(
-                f"--resistance and {OPTIONS['resistance']} are the same here: give one"
-            )
-        if "resistance" in typed:
-            texts["resistance"], flags["resistance"] = options.resistance, "--resistance"
+
+
+def _own_inputs(options: argparse.Namespace, names: Sequence[str]) -> dict[str, float]:
+    """Return the inputs given that are not the case's; ValueError if no model has them."""
+    texts = {name: getattr(options, flag[2:].replace("-", "_")) for name, flag in OPTIONS.items()}
+    texts = {name: text for name, text in texts.items() if text is not None}
+    if texts and not any(DEPTH_MODELS[name].own for name in names):
+        raise ValueError(
+            f"{OPTIONS[next(iter(texts))]} is no input of the model {names[0]}: add --model "
+            "frank-zook or --models"
+        )
     values = {}
     for name, text in texts.items():
-        with place(flags[name]):
+        with place(OPTIONS[name]):
             values[name] = read_number(text, OWN_INPUTS[name])
             check({name: values[name]})
             check_each(**{name: values[name]})
@@ -234,11 +230,17 @@ def _about_threshold(case: Impact, strength: float | None, threshold: float | No
     """Return what the threshold [m/s] of a particle's strength [Pa] means: it is no depth."""
     if strength is None or threshold is None:
         return []
-    reached = "is above it" if case.velocity > threshold else "is not above it"
-    meaning = (
-        f"By Eq. 5 a particle of strength Y_p {number(strength / 1e6)} MPa penetrates a target of "
-        f"resistance R_t {number(case.target_resistance / 1e9)} GPa only above this velocity; "
-        f"{number(case.velocity)} m/s {reached}. The depth is that of a rigid particle."
-    )
-    shown_threshold = f"{number(threshold, 8)} m/s ({threshold!r} m/s)"
-    return ["", f"threshold         {shown_threshold}", filled(meaning)]
+    particle = f"a particle of strength Y_p {number(strength / 1e6)} MPa"
+    resistance = f"the case's resistance R_t {number(case.target_resistance / 1e9)} GPa"
+    if threshold == 0:
+        shown_threshold = "none: every velocity penetrates"
+        meaning = f"By Eq. 5 {particle} penetrates at any, as Y_p is not below {resistance}."
+    else:
+        shown_threshold = f"{number(threshold, 8)} m/s ({threshold!r} m/s)"
+        reached = "is above it" if case.velocity > threshold else "is not above it"
+        meaning = (
+            f"By Eq. 5 {particle} penetrates a target of {resistance} only above this velocity; "
+            f"{number(case.velocity)} m/s {reached}."
+        )
+    rigid = "The depth is that of a rigid particle."
+    return ["", f"threshold         {shown_threshold}", filled(f"{meaning} {rigid}")]

@@ -8,11 +8,10 @@ import re
 import shutil
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from textwrap import fill
 from typing import Any
 
 from replication.reading import one_line
-from replication.text import json_text, rows_csv
+from replication.text import json_text, prose, rows_csv
 
 
 def put(
@@ -67,10 +66,7 @@ def filled(text: str, indent: str = "", hanging: str = "") -> str:
 
     indent and hanging: blanks before the first line, and before the others.
     """
-    return fill(
-        text, min(width(), 100), initial_indent=indent, subsequent_indent=hanging,
-        break_on_hyphens=False, break_long_words=False,
-    )  # fmt: skip
+    return prose(text, min(width(), 100), indent, hanging)
 
 
 def may_emphasize() -> bool:

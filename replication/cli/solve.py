@@ -66,7 +66,8 @@ def run(options: argparse.Namespace) -> int:
         if quantity == "radius":
             raise
         radii = f"{depth / case.radius:.3g} times the radius"
-        raise ValueError(f"{option(name)}: the depth is {radii}: {error}") from error
+        meant = _meant(text, depth / case.radius)
+        raise ValueError(f"{option(name)}: the depth is {radii}: {error}{meant}") from error
     if answer.value is not None:
         named = f"the {_words(quantity)} for this depth"
         warnings += doubt(quantity, answer.value, named, typed=False)
@@ -96,6 +97,13 @@ def _depth(name: str, text: str, quantity: str, case: Impact) -> float:
     return value if name == "depth" else value * case.radius
 
 
+def _meant(text: str, normalized_depth: float) -> str:
+    """Ask whether micrometres are meant by a number without a unit that no depth [m] can be."""
+    is_plain = not text.strip()[-1:].isalpha()
+    in_um = is_plain and normalized_depth > 1e3 and 1e-3 < normalized_depth * 1e-6 < 1e3
+    return f'; did you mean "{text.strip()} um"?' if in_um else ""
+
+
 def _text(answer: Solution, texts: Mapping[str, str]) -> str:
     """Return the inputs, the depth, and the answer with its range and condition."""
     rows = [("depth", f"{number(answer.depth * 1e6, 8)} um ({answer.depth!r} m)")]
@@ -103,7 +111,7 @@ def _text(answer: Solution, texts: Mapping[str, str]) -> str:
         rows.append(("normalized depth", number(answer.normalized_depth, 8)))
     name = _words(answer.quantity)
     if answer.value is None:
-        rows.append((name, f"none: {answer.reason.replace(answer.quantity, f'the {name}')}"))
+        rows.append((name, f"none: the {answer.reason}"))
     else:
         rows.append((name, shown(answer.quantity, answer.value)))
     if answer.interval is not None:

@@ -16,7 +16,7 @@ from replication.error import warnings
 from replication.error.ladder import exact_motion
 from replication.models.depth import final_depth
 from replication.models.sheet import run
-from replication.text import aligned, columns
+from replication.text import aligned, columns, prose
 
 
 def _half_buried(factor: float) -> dict[str, float]:
@@ -170,7 +170,8 @@ def record(count: int, seed: int) -> dict[str, Any]:
 def text(record: dict[str, Any], width: int = 10_000) -> str:
     """Return the hard cases as a table, with notes below it and the worst of the random cases.
 
-    Where the table is wider than `width`, the sheet and the closed form have one each.
+    Where the table is wider than `width`, the sheet and the closed form have one each. The notes
+    are wrapped to it.
     """
     rows: list[tuple[str, ...]] = [
         ("case", "steps", "sheet X/m", "off by", "closed form X/m", "ulp", "exact X/m")
@@ -186,7 +187,7 @@ def text(record: dict[str, Any], width: int = 10_000) -> str:
         rows.append((case["name"], *sheet, *closed))
         refusal = case["refused"] or case["sheet_refused"]
         said = [f"refused: {refusal}"] if refusal else case["warnings"]
-        notes += [f"{case['name']}: {words}" for words in said]
+        notes += [prose(f"{case['name']}: {words}", width, hanging="  ") for words in said]
     worst = record["random"]
     inputs = ", ".join(f"{name} {value!r}" for name, value in worst["inputs"].items())
     closing = (
@@ -197,4 +198,4 @@ def text(record: dict[str, Any], width: int = 10_000) -> str:
     if max(map(len, table)) > width:
         sheets, exact = [row[:4] for row in rows], [(row[0], *row[4:]) for row in rows]
         table = [columns(sheets, width), "", columns(exact, width)]
-    return "\n".join([*table, "", *notes, "", closing])
+    return "\n".join([*table, "", *notes, "", prose(closing, width)])

@@ -149,8 +149,8 @@ def check_solution(name: str, value: float, **inputs: float) -> None:
     >>> check_solution("target_density", math.nan, depth=9e-6, velocity=500.0, radius=11e-6,
     ...                particle_density=8900.0, resistance=3.5e9)
     Traceback (most recent call last):
-    replication.models.inverse.NoSolutionError: target_density has no value that gives 9e-06 m: \
-without any, at the constant pressure R_t, the depth is 8.273e-06 m
+    replication.models.inverse.NoSolutionError: target density has no value that gives 9 um: \
+without any, at the constant pressure R_t, the depth is 8.273 um
     """
     if "radius" in inputs:
         y = inputs["depth"] / inputs["radius"]
@@ -162,8 +162,10 @@ without any, at the constant pressure R_t, the depth is 8.273e-06 m
     if name == "target_density" and math.isnan(value):
         names = ("velocity", "radius", "particle_density", "resistance")
         most = constant_pressure_depth(*(inputs[name] for name in names))
-        problem = f"has no value that gives {inputs['depth']!r} m: without any, at the constant"
-        raise NoSolutionError(name, f"{problem} pressure R_t, the depth is {most:.4g} m")
+        depth = inputs["depth"]
+        problem = f"has no value that gives {depth * 1e6:.8g} um: without any, at the constant"
+        words = name.replace("_", " ")
+        raise NoSolutionError(words, f"{problem} pressure R_t, the depth is {most * 1e6:.4g} um")
     if not 0 < value < math.inf:
         problem = f"is {value!r} for this depth: doubles carry 1e-250 to 1e250 safely"
         raise InputError(name, problem)

@@ -5,7 +5,7 @@ from fractions import Fraction as F
 
 import pytest
 
-from reference.units import UnitError, to_si, unit_dimension
+from reference.units import UnitError, same_dimension, to_si, unit_dimension
 
 
 @pytest.mark.parametrize(
@@ -60,3 +60,20 @@ def test_what_is_no_unit_is_refused_in_one_short_line(text: str) -> None:
     message = f"unknown unit {text[:40]!r}: take one such as um, ns, m/s, kg/m^3, MPa or ksi"
     with pytest.raises(UnitError, match=f"^{re.escape(message)}$"):
         to_si(text)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected", "meant"),
+    [
+        ("m/z", "m/s", "m/s or km/s"),
+        ("kis", "Pa", "ksi or kpsi"),
+        ("nz", "s", "ns"),
+        ("gm/cm3", "kg/m^3", "g/cm^3 or kg/m^3"),
+    ],
+)
+def test_a_misspelt_unit_is_sought_among_those_of_its_quantity(
+    text: str, expected: str, meant: str
+) -> None:
+    message = f"unknown unit {text!r}: did you mean {meant}?"
+    with pytest.raises(UnitError, match=f"^{re.escape(message)}$"):
+        same_dimension(text, expected)

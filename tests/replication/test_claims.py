@@ -114,3 +114,8 @@ def test_a_formula_that_a_misprint_leaves_without_a_value_ends_no_audit() -> Non
     assert {f.id for f in spoiled.findings if not f.holds} >= {"equation-16", "frank-zook-values"}
     armor = [a for a in spoiled.approaches if a.claim == "frank-zook-rha"]
     assert [a.computed for a in armor] == [None, None]
+
+
+def test_a_claim_that_there_is_not_says_where_the_ids_are(record: Record) -> None:
+    with pytest.raises(KeyError, match="there is no claim 'xyz'; `coldspray claims` lists the ids"):
+        record.claim("xyz")

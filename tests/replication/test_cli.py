@@ -140,8 +140,9 @@ def test_a_write_protected_file_stays(tmp_path: Path, monkeypatch: pytest.Monkey
 
 
 def test_claims_are_listed() -> None:
-    listing = coldspray("claims")[1].splitlines()
+    heads, *listing = coldspray("claims")[1].splitlines()
     records = json.loads(coldspray("claims", "--json")[1])
+    assert heads.split() == ["id", "printed", "kind", "line"]
     assert [line.split()[0] for line in listing] == [record["id"] for record in records]
 
 
@@ -329,12 +330,20 @@ def test_verdicts_are_coloured_on_a_terminal(monkeypatch: pytest.MonkeyPatch) ->
         ["claims", "eq16"],
         ["claims", "frank-zook-rha"],
         ["power", "--sample", "1"],
+        ["stability", "--random", "10"],
+        ["bench", "--quick", "--limit", "1 ms", "--quiet"],
     ],
     ids=" ".join,
 )
 def test_a_terminal_of_80_columns_breaks_no_line(arguments: list[str]) -> None:
     out = re.sub(r"\x1b\[\d+m", "", coldspray(*arguments)[1])
     assert max(map(len, out.splitlines())) <= 80
+
+
+@pytest.mark.usefixtures("terminal")
+def test_nearly_every_claim_takes_one_line_of_80_columns() -> None:
+    rows = len(json.loads(coldspray("claims", "--json")[1]))
+    assert len(coldspray("claims")[1].splitlines()) < 1.1 * rows
 
 
 @pytest.mark.usefixtures("terminal")

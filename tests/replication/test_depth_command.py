@@ -51,9 +51,8 @@ def test_a_resistance_of_the_case_is_not_frank_and_zooks() -> None:
     assert [result["inputs"]["resistance"] for result in both] == [3.5e9, 3.5e9, 7.6e9, 7.6e9]
 
 
-@pytest.mark.parametrize("option", ["--resistance", "--frank-zook-resistance"])
-def test_a_resistance_given_to_one_model_is_its_own(option: str) -> None:
-    result = record("depth", "--model", "frank-zook", option, "7.6 GPa")
+def test_a_resistance_given_to_one_model_is_its_own() -> None:
+    result = record("depth", "--model", "frank-zook", "--frank-zook-resistance", "7.6 GPa")
     assert result["normalized_depth"] == pytest.approx(0.3001, abs=5e-5)  # 0.2545 * 1.1789
     assert result["sources"]["resistance"] == "given"
 
@@ -73,7 +72,8 @@ def test_each_input_of_its_own_acts_and_is_said_to_be_given() -> None:
         ("--model frank-zook --beta 3", "--beta has no say in the model frank-zook, whose "
          "resistance is its own: give --frank-zook-resistance"),
         ("--model frank-zook --resistance 8e9 --frank-zook-resistance 7e9",
-         "--resistance and --frank-zook-resistance are the same here: give one"),
+         "--resistance has no say in the model frank-zook, whose resistance is its own: give "
+         "--frank-zook-resistance"),
         ("--models --k-t 0", "--k-t: k_t is 0.0: it must be a finite number greater than zero"),
         ("--models --k-t 1GPa", "--k-t: '1GPa': give no unit"),
         ("--particle-strength -1", "--particle-strength: particle_strength is -1.0: it must be a "
@@ -97,6 +97,22 @@ def test_a_threshold_is_a_velocity_beside_the_depth(strength: str, threshold: fl
     assert result["penetration_threshold"] == pytest.approx(threshold, abs=5e-3)
     assert result["depth"] == record("depth")["depth"]
     assert record("depth")["penetration_threshold"] is None
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--particle-strength", "9 GPa"], "threshold none: every velocity penetrates By Eq. 5 a "
+         "particle of strength Y_p 9000 MPa penetrates at any, as Y_p is not below the case's "
+         "resistance R_t 3.5 GPa. The depth"),
+        (["--model", "frank-zook", "--particle-strength", "90 MPa"], "the case's resistance "
+         "R_t 3.5 GPa only above this velocity; 500 m/s is not above it."),
+        (["--model", "frank-zook", "--resistance", "2 GPa", "--particle-strength", "90 MPa"],
+         "R_t 9.13 GPa fz-resistance-rha"),
+    ],
+)  # fmt: skip
+def test_the_threshold_is_said_in_words(arguments: list[str], words: str) -> None:
+    assert words in " ".join(coldspray("depth", *arguments)[1].split())
 
 
 # `coldspray crater`

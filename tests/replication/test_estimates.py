@@ -4,18 +4,24 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import fields
+from fractions import Fraction
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 import replication
+from reference import computations, inverse
+from reference.arithmetic import Number, Reals
+from reference.equations import Equations
 from reference.ledger import load
 from replication.cases import BETA_3, BETA_5, DEPTH_MODELS, modelled
 from replication.models import estimates
 from replication.models.alternatives import ConstantPressure, DepthModel
 
 LEDGER = load()
+PRINTED = Equations(LEDGER.sides)
+REALS = Reals(400)  # enough for 1 + p with a p of 1e-250
 
 
 @pytest.mark.parametrize(
@@ -155,3 +161,84 @@ def test_betas_of_section_3() -> None:
 def test_bad_inputs_of_estimates(call: Callable[[], object], message: str) -> None:
     with pytest.raises(ValueError, match=f"^{re.escape(message)}$"):
         call()
+
+
+# In many digits, by the reference package where it has the formula
+
+
+def crater_depth(volume_ratio: Number, radius: Number) -> Number:
+    return radius * inverse.depth_of_work(REALS, 4 * volume_ratio / 3)
+
+
+def crater_volume_ratio(depth: Number, radius: Number) -> Number:
+    return 3 * inverse.work(REALS, depth / radius) / 4
+
+
+def goodier_beta(q_over_flow_stress: Number) -> Number:
+    return computations.goodier_beta(REALS, PRINTED, q_over_flow_stress, Fraction(2))
+
+
+def walker_anderson_alpha(elastic_modulus: Number, flow_stress: Number) -> Number:
+    return computations.walker_anderson_alpha(REALS, PRINTED, elastic_modulus, flow_stress)
+
+
+def walker_anderson_beta(alpha: Number) -> Number:
+    return PRINTED["eq10"](REALS, alpha=alpha)
+
+
+def penetration_threshold(
+    particle_strength: Number, resistance: Number, particle_density: Number
+) -> Number:
+    """Eq. 5 with u = 0: rho_p v^2 / 2 + Y_p = R_t."""
+    lacking = REALS.greatest(resistance - particle_strength, REALS.number(0))
+    return REALS.power(2 * lacking / particle_density, Fraction(1, 2))
+
+
+def constant_pressure_depth(
+    velocity: Number, radius: Number, particle_density: Number, resistance: Number
+) -> Number:
+    """R_t CV = rho_p PV V^2 / 2."""
+    return crater_depth(particle_density * velocity**2 / (2 * resistance), radius)
+
+
+def frank_zook_depth(
+    velocity: Number, radius: Number, particle_density: Number, target_density: Number,
+    resistance: Number, length_ratio: Number, k_1: Number, k_t: Number,
+) -> Number:  # fmt: skip
+    inputs = length_ratio, particle_density, target_density, k_1, k_t, velocity, resistance
+    return radius * computations.frank_zook_derived(REALS, *inputs)
+
+
+MAGNITUDES = st.floats(-30, 30).map(lambda power: 10.0**power)
+"""Of any unit; for these no product of eight inputs leaves the range of doubles."""
+
+
+@pytest.mark.parametrize(
+    ("model", "exact", "inputs", "error"),
+    [
+        (replication.crater_depth, crater_depth, 2, 1e-15),
+        (replication.crater_volume_ratio, crater_volume_ratio, 2, 1e-15),
+        (replication.goodier_beta, goodier_beta, 1, 1e-15),
+        (replication.walker_anderson_alpha, walker_anderson_alpha, 2, 1e-15),
+        (replication.walker_anderson_beta, walker_anderson_beta, 1, 1e-15),
+        (replication.penetration_threshold, penetration_threshold, 3, 1e-15),
+        (replication.constant_pressure_depth, constant_pressure_depth, 4, 1e-15),
+        # Twelve roundings of 2^-53 each are 1.3e-15; the others have nine at most.
+        (replication.frank_zook_depth, frank_zook_depth, 8, 2e-15),
+    ],
+)  # fmt: skip
+@given(data=st.data())
+def test_estimates_hold_the_digits_that_they_promise(
+    model: Callable[..., float],
+    exact: Callable[..., Number],
+    inputs: int,
+    error: float,
+    data: st.DataObject,
+) -> None:
+    values = [data.draw(MAGNITUDES) for _ in range(inputs)]
+    # Where a formula changes, or loses digits if it is written badly, both inputs are alike.
+    if inputs in (2, 3) and data.draw(st.booleans()):
+        values[0] = values[1] * data.draw(st.floats(0.25, 4))
+    expected = exact(*map(REALS.number, map(Fraction, values)))
+    assert abs(REALS.number(Fraction(model(*values))) - expected) <= abs(expected) * error
+    assert f"below {error:g}" in " ".join((model.__doc__ or "").split())

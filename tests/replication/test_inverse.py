@@ -143,8 +143,8 @@ def test_deeper_than_in_a_target_without_density_is_an_error_with_the_reason(dep
     with pytest.raises(inverse.NoSolutionError) as raised:
         solved("target_density", depth, BETA_5)
     assert str(raised.value) == (
-        f"target_density has no value that gives {depth!r} m: without any, at the constant "
-        "pressure R_t, the depth is 8.273e-06 m"
+        f"target density has no value that gives {depth * 1e6:.8g} um: without any, at the "
+        "constant pressure R_t, the depth is 8.273 um"
     )
 
 

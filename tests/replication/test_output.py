@@ -64,7 +64,11 @@ NO_STEPS = "the velocity 0.5 m/s is below the stop velocity 1.0 m/s: no steps"
         ("sheet-no-steps.json", ["sheet", "--velocity", "0.5", "--json"], []),
         ("sheet-at-stop.csv", ["sheet", "--velocity", "1", "--csv"], AT_STOP),
         ("depth-models.txt", ["depth", "--models", "--k-1", "0.5"], []),
-        ("depth-frank-zook.txt", ["depth", "--model", "frank-zook", "--resistance", "7.6 GPa"], []),
+        (
+            "depth-frank-zook.txt",
+            ["depth", "--model", "frank-zook", "--frank-zook-resistance", "7.6 GPa"],
+            [],
+        ),
         ("depth-frank-zook.json", ["depth", "--model", "frank-zook-printed", "--json"], []),
         ("depth-strength.txt", ["depth", "--particle-strength", "90 MPa", "--velocity", "1e3"], []),
         ("crater.txt", ["crater", "--volume-ratio", "0.06"], []),

@@ -224,6 +224,19 @@ def test_quantiles_are_those_of_the_draws() -> None:
     assert [line.get_xdata()[0] for line in panel.get_lines()] == pytest.approx([5, 50, 95])
 
 
+def test_quantiles_have_the_dashes_of_their_histogram(tmp_path: Path) -> None:
+    """So that those of beta 3 and 5 differ in gray."""
+    file = own(
+        tmp_path, "draws.toml", "[sweep]\nsamples = 20\n[inputs]\nbeta = [3, 5]\n"
+        "velocity = {distribution = 'normal', mean = 500, deviation = 50}",
+    )  # fmt: skip
+    plan = read_plan(file)
+    panel = plots.plot_sweep(compute(plan, 0, plan.count), plan.axes, plan.is_drawn).axes[0]
+    dashes = [line.get_linestyle() for line in panel.get_lines()]
+    assert dashes == [*3 * ["-"], *3 * ["--"]]
+    assert [patch.get_linestyle() for patch in panel.patches] == ["-", "--"]
+
+
 def test_the_sheet_is_marked_at_its_rows(figures: dict[str, Figure]) -> None:
     """Of 178 steps every sixth is marked, and the last."""
     marks = figures["sheet"].axes[0].get_lines()[1]

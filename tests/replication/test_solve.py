@@ -58,8 +58,8 @@ def test_no_solution_is_an_answer_with_its_reason() -> None:
     answer = solve(BETA_5, "target_density", 9e-6)
     assert (answer.value, answer.condition) == (None, None)
     assert answer.reason == (
-        "target_density has no value that gives 9e-06 m: without any, at the constant pressure "
-        "R_t, the depth is 8.273e-06 m"
+        "target density has no value that gives 9 um: without any, at the constant pressure "
+        "R_t, the depth is 8.273 um"
     )
 
 
@@ -146,7 +146,7 @@ def test_an_interval_from_zero_says_that_there_is_not_always_a_value(
 def test_of_no_depth_that_prints_so_is_there_a_solution() -> None:
     answer = solve_printed(BETA_5, "target_density", {"depth": "9.0 um"})
     assert (answer.value, answer.interval) == (None, None)
-    assert "has no value that gives 9e-06 m" in answer.reason
+    assert "has no value that gives 9 um" in answer.reason
 
 
 @pytest.mark.parametrize(

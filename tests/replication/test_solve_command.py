@@ -65,10 +65,10 @@ def test_a_case_file_is_exact(tmp_path: Path) -> None:
 def test_no_solution_is_status_1_with_its_reason() -> None:
     record = answer("target-density", "--depth", "9 um", status=1)
     assert (record["value"], record["interval"]) == (None, None)
-    assert record["reason"].startswith("target_density has no value that gives 9e-06 m: ")
+    assert record["reason"].startswith("target density has no value that gives 9 um: ")
     status, out, err = coldspray("solve", "target-density", "--depth", "9 um")
     assert (status, err) == (1, "")
-    assert "none: the target density has no value that gives 9e-06 m" in out
+    assert "none: the target density has no value that gives 9 um" in out
 
 
 def test_an_interval_without_a_value_in_its_middle_is_an_answer() -> None:
@@ -98,7 +98,8 @@ def test_an_interval_without_a_value_in_its_middle_is_an_answer() -> None:
          "--radius is 0.0: it must be a finite number greater than zero"),
         ("velocity --depth 3", "--depth: the depth is 2.73e+05 times the radius: velocity is inf "
          "for this depth: doubles carry 1e-250 to 1e250 safely (with depth 3.0, radius 1.1e-05, "
-         "particle_density 8900.0, target_density 7850.0, resistance 3500000000.0)"),
+         "particle_density 8900.0, target_density 7850.0, resistance 3500000000.0); did you mean "
+         '"3 um"?'),
         ("step --depth 3um", "argument QUANTITY: there is no quantity 'step': choose one of "
          "resistance, beta, flow-stress, velocity, radius, particle-density, target-density (see "
          "coldspray solve --help)"),
