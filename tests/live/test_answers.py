@@ -2,6 +2,8 @@
 
 import importlib.util
 import json
+import subprocess
+import sys
 from math import ulp
 from pathlib import Path
 from types import ModuleType
@@ -44,6 +46,24 @@ def without_point(text: str) -> float:
 def asked(answers: ModuleType, **question: Any) -> dict[str, Any]:
     answer: dict[str, Any] = json.loads(answers.answer(json.dumps(question)))
     return answer
+
+
+def test_nothing_is_imported_that_the_page_does_not_have() -> None:
+    program = f"""
+import sys
+# Libraries that flint and msgspec use where they are installed; the page has neither.
+sys.modules.update(dict.fromkeys(["mpmath", "typing_extensions"]))
+before = set(sys.modules)
+sys.path.insert(0, {str(LIVE)!r})
+import answers
+new = [sys.modules[name] for name in set(sys.modules) - before]
+files = [module.__file__ for module in new if getattr(module, "__file__", None)]
+places = [file.replace("\\\\", "/").split("/site-packages/") for file in files]
+print(*sorted({{place[1].split("/")[0] for place in places if len(place) > 1}}))
+"""
+    command = [sys.executable, "-c", program]
+    ended = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert set(ended.stdout.split()) == {"flint", "msgspec"}
 
 
 @pytest.mark.parametrize("kind", ["claim", "equation", "finding"])
