@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from functools import partial
 from hashlib import sha256
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
-from itertools import count
+from itertools import count, product
 from math import ulp
 from pathlib import Path
 from threading import Event, Thread
@@ -89,11 +89,11 @@ class Handler(SimpleHTTPRequestHandler):
     def do_GET(self) -> None:
         name = self.path.partition("?")[0].lstrip("/")
         if name in self.stalled:
-            content = (Path(self.directory) / name).read_bytes()
+            whole = (Path(self.directory) / name).read_bytes()
             self.send_response(200)
-            self.send_header("Content-Length", str(len(content)))
+            self.send_header("Content-Length", str(len(whole)))
             self.end_headers()
-            self.wfile.write(content[: self.stalled[name]])
+            self.wfile.write(whole[: self.stalled[name]])
             self.may_go_on.wait()
         elif name not in self.replaced:
             super().do_GET()
@@ -378,8 +378,14 @@ def test_a_sheet_of_too_many_rows_is_not_run(running: Visit) -> None:
     assert least == pytest.approx(stop / 4000 * 1e9, rel=5e-3)  # three digits are shown
 
 
-@pytest.mark.parametrize("how", ["absent", "cut", "flipped"])
-@pytest.mark.parametrize("name", [*CHECKED_AT_ONCE, *CHECKED_AT_START, *UNCHECKED])
+@pytest.mark.parametrize(
+    ("name", "how"),
+    [
+        *product([*CHECKED_AT_ONCE, *CHECKED_AT_START, *UNCHECKED], ["absent", "cut"]),
+        # The list of hashes has none of its own, and what checks the others cannot check itself.
+        *product([*CHECKED_AT_ONCE[:-1], *CHECKED_AT_START], ["flipped"]),
+    ],
+)
 def test_a_broken_file_is_named_and_the_audit_stays(
     visit: Visit, site: Path, name: str, how: str
 ) -> None:
