@@ -2,11 +2,18 @@
 
 export class BrokenFile extends Error {}
 
+const PATIENCE = 20_000; // milliseconds without a byte: the server has stalled
+
+// The files that are being loaded have one alarm: a browser asks for few at a time, so that some
+// wait for others on a slow line, and nothing is wrong with them.
+const loading = new Set();
+let alarm;
+
 // The list of all files with their sizes and hashes, which build.py writes.
 export async function listOfFiles(base) {
-  const response = await fetched("files.json", base);
+  const bytes = await loaded("files.json", base);
   try {
-    return await response.json();
+    return JSON.parse(new TextDecoder().decode(bytes));
   } catch {
     throw new BrokenFile("files.json is damaged: build the folder again, or copy it anew");
   }
@@ -15,8 +22,7 @@ export async function listOfFiles(base) {
 // The bytes of a file. Throws BrokenFile, which names the file, if it is absent or was changed.
 export async function checkedFile(name, files, base, arrived = () => {}) {
   if (!(name in files)) throw new BrokenFile(`${name} is not in files.json: build the folder again`);
-  const response = await fetched(name, base);
-  const bytes = await read(name, response, arrived);
+  const bytes = await loaded(name, base, arrived);
   const digest = new Uint8Array(await crypto.subtle.digest("SHA-256", bytes));
   const hexadecimal = Array.from(digest, (byte) => byte.toString(16).padStart(2, "0")).join("");
   if (hexadecimal !== files[name].sha256) {
@@ -26,10 +32,33 @@ export async function checkedFile(name, files, base, arrived = () => {}) {
   return bytes;
 }
 
-async function fetched(name, base) {
+async function loaded(name, base, arrived = () => {}) {
+  const controller = new AbortController();
+  loading.add(controller);
+  setAlarm();
+  try {
+    const response = await fetched(name, base, controller.signal);
+    return await read(name, response, arrived);
+  } finally {
+    loading.delete(controller);
+    setAlarm();
+  }
+}
+
+// Give up what is being loaded after PATIENCE from now, unless this is called again before.
+function setAlarm() {
+  clearTimeout(alarm);
+  if (loading.size === 0) return;
+  alarm = setTimeout(() => {
+    const stalled = new Error(`the server sent nothing for ${PATIENCE / 1000} s`);
+    for (const controller of loading) controller.abort(stalled);
+  }, PATIENCE);
+}
+
+async function fetched(name, base, signal) {
   let response;
   try {
-    response = await fetch(new URL(name, base));
+    response = await fetch(new URL(name, base), { signal });
   } catch (error) {
     throw new BrokenFile(`${name} cannot be loaded (${error.message})`);
   }
@@ -47,6 +76,7 @@ async function read(name, response, arrived) {
       pieces.push(value);
       length += value.length;
       arrived(value.length);
+      setAlarm();
     }
   } catch (error) {
     throw new BrokenFile(`${name} broke off after ${length} bytes (${error.message})`);

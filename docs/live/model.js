@@ -91,6 +91,7 @@ export class Model {
     this.isAsking = true;
     try {
       const wasStarted = this.python.worker !== undefined;
+      if (!wasStarted) this.hears.say("Starting Python.");
       await this.python.start();
       if (!wasStarted) this.hears.say("Python is ready.");
       while (this.isStale) {

@@ -4,12 +4,19 @@ import { BrokenFile, checkedFile, listOfFiles } from "./files.js";
 
 const state = document.getElementById("state");
 const bar = document.getElementById("bar");
+const going = document.getElementById("going");
 
-// What is going on, in words; `progress` from 0 to 1, or null when nothing is going on.
-function say(words, progress = null) {
+// What begins or has ended, in words: screen readers announce it.
+function say(words) {
   state.textContent = words;
-  bar.hidden = progress === null;
-  if (progress !== null) bar.value = progress;
+  showProgress("", null);
+}
+
+// How far it is, in words that are not announced, and from 0 to 1; null when nothing is going on.
+function showProgress(words, part) {
+  going.textContent = words;
+  bar.hidden = part === null;
+  if (part !== null) bar.value = part;
 }
 
 function sayWrong(error) {
@@ -19,6 +26,7 @@ function sayWrong(error) {
 }
 
 async function begin() {
+  say("Checking the files.");
   if (!globalThis.isSecureContext) {
     throw new BrokenFile("files can be checked only on https or on this machine's own localhost");
   }
@@ -34,8 +42,8 @@ async function begin() {
     import("./prove.js"),
     import("./model.js"),
   ]);
-  const python = new Python(files, ({ words, progress }) => say(words, progress));
-  const hears = { say, sayWrong, clear: () => state.classList.remove("wrong") };
+  const python = new Python(files, ({ words, progress }) => showProgress(words, progress));
+  const hears = { say, showProgress, sayWrong, clear: () => state.classList.remove("wrong") };
   new Proofs(python, stored, hears);
   new Model(python, hears);
   document.body.classList.add("live");

@@ -20,8 +20,8 @@ export class Proofs {
   async proveOne(entry) {
     this.hears.clear();
     try {
-      await this.python.start();
       if (!this.running) this.hears.say(`Proving: ${entry.title}`);
+      await this.python.start();
       await this.prove(entry);
       if (!this.running) this.hears.say(`${entry.title}: ${entry.words}.`);
       entry.button.focus({ preventScroll: true });
@@ -37,12 +37,12 @@ export class Proofs {
     this.hears.clear();
     const counts = { proven: 0, same: 0, rounded: 0, differs: 0 };
     try {
-      this.hears.say("Loading Python", 0);
+      this.hears.say(`Proving all ${this.entries.length} entries again.`);
       await this.python.start();
       const began = performance.now();
       for (const [k, entry] of this.entries.entries()) {
-        const words = `Proving ${k + 1} of ${this.entries.length}: ${entry.title}`;
-        this.hears.say(words, k / this.entries.length);
+        const words = `${k + 1} of ${this.entries.length}: ${entry.title}`;
+        this.hears.showProgress(words, k / this.entries.length);
         counts[await this.prove(entry)] += 1;
       }
       const seconds = ((performance.now() - began) / 1000).toFixed(1);

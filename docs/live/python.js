@@ -5,7 +5,7 @@ import { BrokenFile, checkedFile } from "./files.js";
 const PATIENCE = 60_000; // milliseconds without any word from a worker that is starting
 
 export class Python {
-  // `says` is told {progress, words} while Python starts.
+  // `says` is told {progress, words} while Python starts, and at its end that progress is null.
   constructor(files, says) {
     this.files = files;
     this.says = says;
@@ -51,8 +51,10 @@ export class Python {
         if (data.progress !== undefined) {
           wait();
           this.says(data);
-        } else if (data.ready) settle(resolve);
-        else if (data.number === undefined) settle(reject, new BrokenFile(data.failed));
+        } else if (data.ready) {
+          this.says({ progress: null, words: "" });
+          settle(resolve);
+        } else if (data.number === undefined) settle(reject, new BrokenFile(data.failed));
         else this.take(data);
       };
     });

@@ -2,6 +2,8 @@
 
 import importlib.util
 import json
+import subprocess
+import sys
 from math import ulp
 from pathlib import Path
 from types import ModuleType
@@ -46,6 +48,24 @@ def asked(answers: ModuleType, **question: Any) -> dict[str, Any]:
     return answer
 
 
+def test_nothing_is_imported_that_the_page_does_not_have() -> None:
+    program = f"""
+import sys
+before = set(sys.modules)
+sys.path.insert(0, {str(LIVE)!r})
+import answers
+new = [sys.modules[name] for name in set(sys.modules) - before]
+files = [module.__file__ for module in new if getattr(module, "__file__", None)]
+places = [file.replace("\\\\", "/").split("/site-packages/") for file in files]
+print(*sorted({{place[1].split("/")[0] for place in places if len(place) > 1}}))
+"""
+    command = [sys.executable, "-c", program]
+    ended = subprocess.run(command, capture_output=True, text=True, check=True)
+    # flint and msgspec import these where they are installed, and do without them on the page.
+    optional = {"mpmath", "typing_extensions.py"}
+    assert set(ended.stdout.split()) - optional == {"flint", "msgspec"}
+
+
 @pytest.mark.parametrize("kind", ["claim", "equation", "finding"])
 def test_a_proof_gives_what_is_stored(
     answers: ModuleType, stored: dict[str, Any], kind: str
@@ -53,6 +73,18 @@ def test_a_proof_gives_what_is_stored(
     for document in stored[f"{kind}s"][:30]:
         proof = asked(answers, ask="proof", kind=kind, id=document["id"], stored=document)
         assert proof["differs"] == []
+
+
+def test_the_readme_counts_the_entries(stored: dict[str, Any]) -> None:
+    claims, equations, findings = (stored[f"{kind}s"] for kind in ("claim", "equation", "finding"))
+    entries = len(claims) + len(equations) + len(findings)
+    proven = sum(claim["enclosure"] is not None for claim in claims)
+    words = (LIVE / "README.md").read_text("utf-8")
+    assert (
+        f"{entries} entries: {len(claims)} claims, {len(equations)} equations, "
+        f"{len(findings)} findings." in words
+    )
+    assert f"\n{proven} are proven again, " in words
 
 
 def claim(stored: dict[str, Any], name: str) -> dict[str, Any]:

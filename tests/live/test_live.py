@@ -11,14 +11,15 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from collections import Counter
 from collections.abc import Iterator
 from functools import partial
 from hashlib import sha256
 from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
-from itertools import count
+from itertools import count, product
 from math import ulp
 from pathlib import Path
-from threading import Thread
+from threading import Event, Thread
 from typing import Any
 
 import pytest
@@ -37,6 +38,7 @@ FLAGS = (
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 )  # fmt: skip
 PATIENCE = 120_000  # milliseconds: what takes longer hangs
+AT_ONCE = 10_000  # milliseconds: a file that is checked when the page opens is named sooner
 
 CHECKED_AT_ONCE = ["audit.json", "model.js", "prove.js", "python.js", "style.css", "files.json"]
 PARTS = tomllib.loads((ROOT / "docs/live/parts.toml").read_text("utf-8"))
@@ -75,13 +77,25 @@ def build(folder: Path, **environment: str) -> subprocess.CompletedProcess[str]:
 
 
 class Handler(SimpleHTTPRequestHandler):
-    """Gives out the folder, but for contents that a test has replaced; None is an absent file."""
+    """Gives out the folder, but for contents that a test has replaced; None is an absent file.
+
+    Of a stalled file it sends as many bytes as the test says, and the rest only when it may go on.
+    """
 
     replaced: dict[str, bytes | None] = {}  # noqa: RUF012 - the server's, for all of its requests
+    stalled: dict[str, int] = {}  # noqa: RUF012
+    may_go_on = Event()
 
     def do_GET(self) -> None:
         name = self.path.partition("?")[0].lstrip("/")
-        if name not in self.replaced:
+        if name in self.stalled:
+            whole = (Path(self.directory) / name).read_bytes()
+            self.send_response(200)
+            self.send_header("Content-Length", str(len(whole)))
+            self.end_headers()
+            self.wfile.write(whole[: self.stalled[name]])
+            self.may_go_on.wait()
+        elif name not in self.replaced:
             super().do_GET()
         elif (content := self.replaced[name]) is None:
             self.send_error(404)
@@ -147,8 +161,8 @@ class Visit:
         self.page = context.new_page()
         self.expect = partial(self._expect, expect)
 
-    def _expect(self, expect: Any, selector: str) -> Any:
-        expect.set_options(timeout=PATIENCE)
+    def _expect(self, expect: Any, selector: str, within: float = PATIENCE) -> Any:
+        expect.set_options(timeout=within)
         return expect(self.page.locator(selector).first)
 
     def open(self, query: str = "") -> Any:
@@ -165,10 +179,14 @@ class Visit:
 @pytest.fixture
 def visit(chromium: Any, server: str) -> Iterator[Visit]:
     Handler.replaced = {}
+    Handler.stalled = {}
+    Handler.may_go_on.clear()
     visit = Visit(chromium, server)
     yield visit
+    Handler.may_go_on.set()
     visit.close()
     Handler.replaced = {}
+    Handler.stalled = {}
 
 
 @pytest.fixture(scope="module")
@@ -193,9 +211,16 @@ def test_the_page_opens_with_the_stored_audit_and_loads_no_python(visit: Visit) 
 def test_everything_is_proven_again_as_natively(visit: Visit, record: Record, site: Path) -> None:
     page = visit.open()
     visit.expect("#prove-all").to_be_enabled()
+    page.evaluate("""() => {
+      const state = document.getElementById("state");
+      globalThis.announced = [];
+      const hear = () => announced.push(state.textContent);
+      new MutationObserver(hear).observe(state, { childList: true });
+    }""")
     page.locator("#prove-all").focus()
     page.keyboard.press("Enter")
     visit.expect("#state").to_contain_text("It took")
+    begun, ended = page.evaluate("announced")
     outcomes = page.locator("[data-outcome]").evaluate_all(
         "marks => marks.map(m => [m.parentElement.closest('[id]').id, m.dataset.outcome])"
     )
@@ -209,6 +234,16 @@ def test_everything_is_proven_again_as_natively(visit: Visit, record: Record, si
         f"finding-{f.id}" for f in record.findings
     }
     assert set(by_id) == on_page
+    assert begun == f"Proving all {len(on_page)} entries again."
+    counts = Counter(by_id.values())
+    assert ended.startswith(
+        f"{counts['proven']} proven again here, {counts['same']} the same again"
+    )
+    assert (
+        f"{counts['proven']} are proven again, {counts['same']} the same again, and "
+        f"{counts['rounded']} the same but for last digits."
+        in (ROOT / "docs/live/README.md").read_text("utf-8")
+    )
     assert visit.said == []
 
 
@@ -343,18 +378,55 @@ def test_a_sheet_of_too_many_rows_is_not_run(running: Visit) -> None:
     assert least == pytest.approx(stop / 4000 * 1e9, rel=5e-3)  # three digits are shown
 
 
-@pytest.mark.parametrize("how", ["absent", "cut"])
-@pytest.mark.parametrize("name", [*CHECKED_AT_ONCE, *CHECKED_AT_START, *UNCHECKED])
+@pytest.mark.parametrize(
+    ("name", "how"),
+    [
+        *product([*CHECKED_AT_ONCE, *CHECKED_AT_START, *UNCHECKED], ["absent", "cut"]),
+        # The list of hashes has none of its own, and what checks the others cannot check itself.
+        *product([*CHECKED_AT_ONCE[:-1], *CHECKED_AT_START], ["flipped"]),
+    ],
+)
 def test_a_broken_file_is_named_and_the_audit_stays(
     visit: Visit, site: Path, name: str, how: str
 ) -> None:
-    content = (site / name).read_bytes()
-    Handler.replaced = {name: None if how == "absent" else content[: len(content) // 2]}
+    Handler.replaced = {name: broken((site / name).read_bytes(), how)}
     page = visit.open()
     if name in CHECKED_AT_START:
         visit.expect("#prove-all").to_be_enabled()
         page.locator("#prove-all").click()
-    visit.expect("#state").to_contain_text(name)
+        visit.expect("#state").to_contain_text(name)
+    else:
+        visit.expect("#state", within=AT_ONCE).to_contain_text(name)
+    assert page.locator("#summary h2").is_visible()
+
+
+def broken(content: bytes, how: str) -> bytes | None:
+    """The content of a file that is absent (None), ends in its middle, or has one bit changed."""
+    if how == "absent":
+        return None
+    middle = len(content) // 2
+    if how == "cut":
+        return content[:middle]
+    return content[:middle] + bytes([content[middle] ^ 1]) + content[middle + 1 :]
+
+
+@pytest.mark.parametrize(
+    ("name", "sent", "message"),
+    [
+        ("model.js", 0, "model.js broke off after 0 bytes (the server sent nothing for 20 s)"),
+        ("python_stdlib.zip", 1000,
+         "python_stdlib.zip broke off after 1000 bytes (the server sent nothing for 20 s)"),
+    ],
+)  # fmt: skip
+def test_a_file_that_stalls_is_named(visit: Visit, name: str, sent: int, message: str) -> None:
+    Handler.stalled = {name: sent}
+    page = visit.open()
+    if name not in CHECKED_AT_START:
+        visit.expect("#state", within=AT_ONCE).to_have_text("Checking the files.")
+    if name in CHECKED_AT_START:
+        visit.expect("#prove-all").to_be_enabled()
+        page.locator("#prove-all").click()
+    visit.expect("#state").to_contain_text(message)
     assert page.locator("#summary h2").is_visible()
 
 
