@@ -20,8 +20,8 @@ def rewritings_of(ledger: Ledger, name: str) -> Iterator[tuple[str, str]]:
     >>> from reference.ledger import load
     >>> [text for text, kind in rewritings_of(load(), "fz-resistance-stainless")]
     ['7.6E9', '7.6e+09', '7.6×10⁹', '7.6 x 10^{9}', '7.6·10^9', ' 7.6×10^9 ']
-    >>> dict(rewritings_of(load(), "eq7"))["multiplication sign"]
-    'R_t = \\beta × Y_t'
+    >>> [text for text, kind in rewritings_of(load(), "diameter") if kind == "factors exchanged"]
+    ['D = R 2']
     """
     if name in ledger.equations:
         return equation_rewritings(ledger, name)

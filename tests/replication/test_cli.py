@@ -331,7 +331,7 @@ def test_verdicts_are_coloured_on_a_terminal(monkeypatch: pytest.MonkeyPatch) ->
         ["claims", "frank-zook-rha"],
         ["power", "--sample", "1"],
         ["stability", "--random", "10"],
-        ["bench", "--quick", "--limit", "1 ms", "--quiet"],
+        pytest.param(["bench", "--quick", "--limit", "1 ms", "--quiet"], marks=pytest.mark.slow),
     ],
     ids=" ".join,
 )
@@ -414,6 +414,7 @@ def deeper(sheet: str, address: str, value: Any) -> Any:
     return value + 1e-12 if depth else value
 
 
+@pytest.mark.slow
 def test_a_workbook_verifies_in_every_engine(run: Run) -> None:
     """The report's workbook is verified cell by cell in `tests/spreadsheets/test_workbook.py`."""
     unverified = json.loads(run("--json", "-o", "report.xlsx")[1])

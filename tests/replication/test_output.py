@@ -148,5 +148,6 @@ def test_the_hard_cases(hostile: Path) -> None:
     assert without == (PRINTED / "stability.txt").read_text("utf-8")
 
 
+@pytest.mark.slow
 def test_planted_misprints(hostile: Path) -> None:
     check(hostile, "power-60.txt", ["power", "--sample", "60", "--seed", "1"], [])

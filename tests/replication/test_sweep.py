@@ -372,6 +372,7 @@ def test_a_draft_is_on_the_disk_before_it_is_renamed(
     assert names(tmp_path) == ["out.csv"]
 
 
+@pytest.mark.slow
 def test_dask_writes_the_same_cases(tmp_path: Path) -> None:
     plan = plan_of(tmp_path, STREAM.format(samples=1000))
     sweep.write(plan, tmp_path / "here.parquet")

@@ -96,6 +96,7 @@ def test_many_comments_that_are_not_too_long(tmp_path: Path) -> None:
     assert read(path).sheets["S"][1, 1].value == 1
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("piece", ["<m/>", "\n", "<!---->"])
 def test_millions_of_pieces_that_mean_nothing(piece: str, tmp_path: Path) -> None:
     path = written(tmp_path / "a.xlsx", [f"<row>{CELL}</row>"], repeat(piece * 100_000, 31))
@@ -136,6 +137,7 @@ def test_a_table_that_is_wider_than_a_sheet(tmp_path: Path) -> None:
     assert refused(path).startswith("is damaged: the table 'T' is wider than a sheet; ")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", ["typed", "shared"])
 def test_long_formulas_in_many_cells(kind: str, tmp_path: Path) -> None:
     """Some hundred cells of these are read; more would take minutes to calculate."""
