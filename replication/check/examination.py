@@ -27,6 +27,10 @@ def near(a: float | Fraction, b: float) -> bool:
     return math.isclose(a, b, rel_tol=1e-9)
 
 
+class AnotherModelError(ValueError):
+    """A table follows another model than the report's. The message says which formula tells."""
+
+
 @dataclass(frozen=True)
 class Difference(difference.Difference):
     """One way in which a workbook departs from the report's sheet.

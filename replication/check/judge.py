@@ -8,10 +8,10 @@ from replication.check.beside import units_beside
 from replication.check.cells import feeding, formula_at, odd_cells
 from replication.check.constants import typed_constants, typed_stops
 from replication.check.ends import first_rows, judge_stop
-from replication.check.examination import Examination, near
+from replication.check.examination import AnotherModelError, Examination, near
 from replication.check.excerpt import judge_excerpt
 from replication.check.fit import is_part
-from replication.check.model import AnotherModelError, blank_inputs, refuse_other_model
+from replication.check.model import blank_inputs, refuse_other_model
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
 from replication.check.rows import fit_table

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from replication.check.cells import formula_at, predicted
 from replication.check.delimited import where
-from replication.check.examination import Examination
+from replication.check.examination import AnotherModelError, Examination
 from replication.check.responses import FAMILIES, trace
 from replication.check.roles import Inputs
 from replication.check.six import REPORT, VARIANTS, end_of_row, start_of_row
@@ -24,10 +24,6 @@ _LARGE = 1e9
 """A number in place of a blank cell, so large that a force that reads it is another one."""
 _FEW_ROWS = 6
 """Of fewer rows without formulas it cannot be said that they follow another model."""
-
-
-class AnotherModelError(ValueError):
-    """A table follows another model than the report's. The message says which formula tells."""
 
 
 def refuse_other_model(

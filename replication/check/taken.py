@@ -5,7 +5,7 @@ from fractions import Fraction
 from functools import cache
 
 from reference.ledger import claims_of_case, load
-from replication.check.examination import Examination, near
+from replication.check.examination import AnotherModelError, Examination, near
 from replication.check.roles import Input, Inputs
 from replication.check.six import Six, start_of_row
 from replication.check.words import INPUTS, digits_of, quantity, times_too, title
@@ -96,14 +96,20 @@ def _si(value: float, power: float) -> float:
 
 
 def six_in_si(exam: Examination) -> Six:
-    """The six numbers of a table in SI units."""
+    """The six numbers of a table in SI units.
+
+    Raises AnotherModelError if one of them is beyond the range of doubles.
+    """
     six, X = exam.fitted.six, exam.units.get("depth", 0.0)
     W = exam.units.get(start_of_row(exam.table)[0], 0.0)
     A = exam.units.get("deceleration", 2 * W - X)
-    return Six(
-        six.G * 10.0 ** (A - 2 * W - 2 * X), six.H * 10.0 ** (A - 2 * X), six.D * 10.0**X,
-        six.c * 10.0 ** (X - W), six.e * 10.0 ** (W - A), six.V * 10.0**W,
-    )  # fmt: skip
+    try:
+        return Six(
+            six.G * 10.0 ** (A - 2 * W - 2 * X), six.H * 10.0 ** (A - 2 * X), six.D * 10.0**X,
+            six.c * 10.0 ** (X - W), six.e * 10.0 ** (W - A), six.V * 10.0**W,
+        )  # fmt: skip
+    except OverflowError as error:
+        raise AnotherModelError("its numbers are beyond those that a double can hold") from error
 
 
 def _as_in_report(exam: Examination, six: Six) -> None:

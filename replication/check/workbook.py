@@ -7,10 +7,9 @@ from pathlib import Path
 
 from reference.units import same_dimension
 from replication.check.delimited import read_any
-from replication.check.examination import NO_FAULT, Difference, Examination
+from replication.check.examination import NO_FAULT, AnotherModelError, Difference, Examination
 from replication.check.judge import examine
 from replication.check.labels import cell_names, label_of
-from replication.check.model import AnotherModelError
 from replication.check.repair import Slipped, Still, mended, moving, slipped, standing
 from replication.check.results import PrintedCell, judge_results, printed_cells
 from replication.check.stale import stale
