@@ -15,7 +15,7 @@ from fractions import Fraction as F
 from hashlib import sha256
 from importlib import metadata
 from itertools import pairwise
-from math import inf, log, nextafter
+from math import inf, nextafter
 from pathlib import Path
 from statistics import NormalDist
 from xml.etree import ElementTree as ET
@@ -27,6 +27,8 @@ from hypothesis import strategies as st
 from msgspec.structs import replace as change
 from pages import HTML, SVG, sound
 
+from reference.arithmetic import Floats
+from reference.equations import evaluate, read_expression
 from reference.ledger import Ledger, load
 from reference.printed import Interval, parse
 from replication import report
@@ -128,10 +130,13 @@ def test_a_library_that_is_not_installed_is_left_out_of_the_provenance(
 def arithmetic(text: str) -> float:
     """Evaluate arithmetic as it is typeset on the page."""
     raised = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
-    text = re.sub(r"×10([⁰¹²³⁴⁵⁶⁷⁸⁹]+)", lambda power: "e" + power[1].translate(raised), text)
-    text = text.replace("·", "*").replace("^", "**").replace("ln", "log")
-    assert re.fullmatch(r"(?:log|[\de.+*/() -])+", text), text
-    return float(eval(text, {"log": log}))  # nothing but digits, signs and log
+
+    def in_brackets(number: re.Match[str]) -> str:
+        return f"({number[1]} × 10^{{{number[2].translate(raised)}}})"
+
+    text = re.sub(r"([\d.]+)×10([⁰¹²³⁴⁵⁶⁷⁸⁹]+)", in_brackets, text)
+    text = re.sub(r"\^([\d.]+)", r"^{\1}", text).replace("ln", r"\ln")
+    return float(evaluate(read_expression(text, {}), Floats(), {}))
 
 
 def test_every_line_by_hand_is_calculated_again(record: Record) -> None:
