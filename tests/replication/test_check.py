@@ -50,7 +50,9 @@ def says(truth: Truth, path: Path, book: Foreign, **given: str) -> None:
 NOT_FOUND = {
     "depths that fall, under a head in an unknown language": "tables are sought where depths grow",
     "a radius in another unit, converted": "CONVERT is not computed",
-    "diameter of a blank cell": "the rows show nothing that could be judged",
+    "diameter of a blank cell, the radius computed": "a radius of 0 is no impact: status 2",
+    "Tabelle1!G4, Tabelle1!D35, Tabelle1!D59 of random-117": "of three contents, another cell first",
+    "Sheet!C14, Sheet!C4, Sheet!E46 of merged-heads": "of three contents, another cell first",
     "the first row's formula filled down": "no table is found, as depths do not grow row by row",
     "a depth of velocity times time": "no table is found, as depths do not grow row by row",
     "what is called final depth, but is not": "a depth between two rows may be meant",
