@@ -157,7 +157,6 @@ ERROR = Quantity(
     "Size of the error of the final depth", ("error", "error of depth"), "m", "nm", 1e9
 )
 UNCERTAINTY = _quantity("uncertainty", "m", names=HEADS["uncertainty"])
-STOP_TIME = _quantity("stop_time", "s", "Time to rest", ("stop time",))
 INPUT = {
     name: _quantity(name, si, {"velocity": "Impact velocity"}.get(name, ""), HEADS.get(name, ()))
     for name, si in INPUTS.items()
