@@ -185,8 +185,13 @@ def stress_on_a_rigid_particle(eq: SymbolicEquations, s: Symbols) -> Iterator[Ch
 @derivation("eq7")
 def target_resistance(eq: SymbolicEquations, s: Symbols) -> Iterator[Check]:
     """It defines beta."""
-    yield equal("it defines the target resistance", eq.left("eq7"), s.R_t)
-    yield equal("as beta times the flow stress", eq.right("eq7"), s.beta * s.Y_t)
+    yield from _target_resistance("eq7", eq, s)
+
+
+def _target_resistance(equation: str, eq: SymbolicEquations, s: Symbols) -> Iterator[Check]:
+    """The report prints this equation twice."""
+    yield equal("it defines the target resistance", eq.left(equation), s.R_t)
+    yield equal("as beta times the flow stress", eq.right(equation), s.beta * s.Y_t)
 
 
 @derivation("eq9")
@@ -300,8 +305,7 @@ def force_law(eq: SymbolicEquations, s: Symbols) -> Iterator[Check]:
 @derivation("eqA-2")
 def target_resistance_again(eq: SymbolicEquations, s: Symbols) -> Iterator[Check]:
     """Eq. 7, printed again."""
-    yield equal("it defines the target resistance", eq.left("eqA-2"), s.R_t)
-    yield equal("as beta times the flow stress", eq.right("eqA-2"), s.beta * s.Y_t)
+    yield from _target_resistance("eqA-2", eq, s)
 
 
 @derivation("eqA-3")
