@@ -374,27 +374,13 @@ def _results(sheet: SheetPlan, case: CaseSheet) -> None:
 def _exact(sheet: SheetPlan, case: CaseSheet) -> None:
     """Add the depth without time steps: at rest, and at the stop velocity."""
     s, resistance = case.suffix, case.resistance
-    work = "work over the particle’s inertia"
-    angle, root = "asin(√(3c)/2)/3, c at most 2/3", "root of y² - y³/3 = c, or 1/3 + c"
     sheet.row += 1
     sheet.block("Without time steps: Eqs. 12 and 13 integrated to rest")
     sheet.line(
         f"p_rest{s}", "p", "dynamic pressure over R_t",
         f"=rho_t*V_impact*V_impact/2/{resistance}", source="ρ_t V²/2R_t", shown="0.0000E+00",
     )  # fmt: skip
-    sheet.line(
-        f"ln_rest{s}", "ln(1 + p)", "right for slow impacts, too", log1p(f"p_rest{s}"),
-        shown="0.0000E+00",
-    )  # fmt: skip
-    sheet.line(
-        f"c_rest{s}", "c", work, f"=4*rho_p/(3*rho_t)*ln_rest{s}",
-        source="(4ρ_p/3ρ_t) ln(1 + p)", shown="0.0000E+00",
-    )  # fmt: skip
-    sheet.line(f"h_rest{s}", "h", "angle of the depth", cap_angle(f"c_rest{s}"), source=angle)
-    sheet.line(
-        f"X_R_rest{s}", "X/R", "normalized depth at rest", depth(f"c_rest{s}", f"h_rest{s}"),
-        source=root,
-    )  # fmt: skip
+    lines_of_depth(sheet, f"rest{s}", " at rest")
     sheet.line(
         f"X_rest{s}", "X", "penetration depth at rest", f"=X_R_rest{s}*R_p*1000000", "um",
         source="R times the line above",
@@ -407,22 +393,33 @@ def _exact(sheet: SheetPlan, case: CaseSheet) -> None:
         f"/(2*{resistance}+rho_t*v_stop*v_stop),0)",
         source="ρ_t (V² - v²)/(2R_t + ρ_t v²)", shown="0.0000E+00",
     )  # fmt: skip
-    sheet.line(
-        f"ln_stop{s}", "ln(1 + p)", "right for slow impacts, too", log1p(f"p_stop{s}"),
-        shown="0.0000E+00",
-    )  # fmt: skip
-    sheet.line(
-        f"c_stop{s}", "c", work, f"=4*rho_p/(3*rho_t)*ln_stop{s}",
-        source="(4ρ_p/3ρ_t) ln(1 + p)", shown="0.0000E+00",
-    )  # fmt: skip
-    sheet.line(f"h_stop{s}", "h", "angle of the depth", cap_angle(f"c_stop{s}"), source=angle)
-    sheet.line(
-        f"X_R_stop{s}", "X/R", "normalized depth at v_stop", depth(f"c_stop{s}", f"h_stop{s}"),
-        source=root,
-    )  # fmt: skip
+    lines_of_depth(sheet, f"stop{s}", " at v_stop")
     sheet.line(
         f"stop_share{s}", "", "depth at v_stop over that at rest", f"=X_R_stop{s}/X_R_rest{s}"
     )
+
+
+def lines_of_depth(sheet: SheetPlan, end: str, where: str = "") -> None:
+    """Add the normalized depth of a pressure over R_t, which has the name `p_` and then `end`.
+
+    So go on the two blocks above, and one of the sheet `Solve`; `where` says of which depth.
+    """
+    sheet.line(
+        f"ln_{end}", "ln(1 + p)", "right for slow impacts, too", log1p(f"p_{end}"),
+        shown="0.0000E+00",
+    )  # fmt: skip
+    sheet.line(
+        f"c_{end}", "c", "work over the particle’s inertia", f"=4*rho_p/(3*rho_t)*ln_{end}",
+        source="(4ρ_p/3ρ_t) ln(1 + p)", shown="0.0000E+00",
+    )  # fmt: skip
+    sheet.line(
+        f"h_{end}", "h", "angle of the depth", cap_angle(f"c_{end}"),
+        source="asin(√(3c)/2)/3, c at most 2/3",
+    )  # fmt: skip
+    sheet.line(
+        f"X_R_{end}", "X/R", f"normalized depth{where}", depth(f"c_{end}", f"h_{end}"),
+        source="root of y² - y³/3 = c, or 1/3 + c",
+    )  # fmt: skip
 
 
 def _state(sheet: SheetPlan, case: CaseSheet) -> None:

@@ -14,8 +14,8 @@ from spreadsheets.plan import (
     unit_text,
 )
 from spreadsheets.sheets import messages
-from spreadsheets.sheets.case import CaseSheet
-from spreadsheets.sheets.formulas import cap_angle, depth, expm1, log1p
+from spreadsheets.sheets.case import CaseSheet, lines_of_depth
+from spreadsheets.sheets.formulas import expm1
 
 MEASURED = "observed-depth"
 """The claim whose depth is typed when the workbook is written."""
@@ -175,21 +175,7 @@ def _back_again(sheet: SheetPlan) -> None:
         "p_back", "p", "dynamic pressure over it", "=rho_t*V_impact*V_impact/2/R_t_meas",
         source="ρ_t V²/2R_t", shown="0.0000E+00",
     )  # fmt: skip
-    sheet.line(
-        "ln_back", "ln(1 + p)", "right for slow impacts, too", log1p("p_back"), shown="0.0000E+00"
-    )
-    sheet.line(
-        "c_back", "c", "work over the particle’s inertia", "=4*rho_p/(3*rho_t)*ln_back",
-        source="(4ρ_p/3ρ_t) ln(1 + p)", shown="0.0000E+00",
-    )  # fmt: skip
-    sheet.line(
-        "h_back", "h", "angle of the depth", cap_angle("c_back"),
-        source="asin(√(3c)/2)/3, c at most 2/3",
-    )  # fmt: skip
-    sheet.line(
-        "X_R_back", "X/R", "normalized depth", depth("c_back", "h_back"),
-        source="root of y² - y³/3 = c, or 1/3 + c",
-    )  # fmt: skip
+    lines_of_depth(sheet, "back")
     sheet.line(
         "X_back_um", "X", "penetration depth", "=X_R_back*R_p*1000000", "um",
         source="R times the line above",
