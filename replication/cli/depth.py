@@ -86,9 +86,9 @@ def run(options: argparse.Namespace) -> int:
     _refuse_without_say(options, typed, names)
     own = _own_inputs(options, names)
     results = [_result(name, case, own, typed) for name in names]
-    strength = _strength(options.particle_strength)
-    threshold = None
-    if strength is not None:
+    strength, threshold, typed_strength = None, None, options.particle_strength
+    if typed_strength is not None:
+        strength = _read("--particle-strength", "particle_strength", typed_strength, "Pa")
         threshold = penetration_threshold(strength, case.target_resistance, case.particle_density)
     if "resistance" in own:
         warnings += doubt("resistance", own["resistance"], OPTIONS["resistance"])
@@ -131,13 +131,18 @@ def _own_inputs(options: argparse.Namespace, names: Sequence[str]) -> dict[str, 
             f"{OPTIONS[next(iter(texts))]} is no input of the model {names[0]}: add --model "
             "frank-zook or --models"
         )
-    values = {}
-    for name, text in texts.items():
-        with place(OPTIONS[name]):
-            values[name] = read_number(text, OWN_INPUTS[name])
-            check({name: values[name]})
-            check_each(**{name: values[name]})
-    return values
+    return {
+        name: _read(OPTIONS[name], name, text, OWN_INPUTS[name]) for name, text in texts.items()
+    }
+
+
+def _read(flag: str, name: str, text: str, unit: str) -> float:
+    """Read a number for an input, which no case has, that the models can compute with."""
+    with place(flag):
+        value = read_number(text, unit)
+        check({name: value})
+        check_each(**{name: value})
+        return value
 
 
 def _result(
@@ -213,17 +218,6 @@ def _shown(name: str, value: float) -> str:
         return number(value)
     unit = shown_in(name)
     return with_unit(number(Fraction(value) / to_si(unit)), unit)
-
-
-def _strength(text: str | None) -> float | None:
-    """Read the strength Y_p of the particle [Pa], which may be zero."""
-    if text is None:
-        return None
-    with place("--particle-strength"):
-        strength = read_number(text, "Pa")
-        check({"particle_strength": strength})
-        check_each(particle_strength=strength)
-        return strength
 
 
 def _about_threshold(case: Impact, strength: float | None, threshold: float | None) -> list[str]:
