@@ -320,20 +320,33 @@ def plot_history(
 
     If the particle sinks in that far, a line marks x = R, where the contact area stops growing.
     """
-    look, curves = look_of(impact), _exact(impact, max(time))
+    marks = {TIME: time, DEPTH: depth, SPEED: velocity} if len(time) <= MARKS else {}
+    label, line = "at the times asked for", look_of(impact).of_line
+    return _over_exact(impact, max(time), line, marks, label, title, points)
+
+
+def _over_exact(
+    impact: Impact,
+    end: float,
+    line: Mapping[str, Any],
+    marks: Mapping[Quantity, Sequence[float]],
+    label: str,
+    title: str,
+    points: Points | None,
+) -> "Figure":
+    """Draw the exact depth and velocity from 0 to an end [s], in a style of line.
+
+    `marks` are times, depths and velocities that are drawn over it, or nothing.
+    """
+    curves = _exact(impact, end)
     with styled():
         figure, panels = _panels(title, 2)
-        asked = ((DEPTH, depth), (SPEED, velocity))
-        for panel, (quantity, values) in zip(panels, asked, strict=True):
-            panel.plot(
-                TIME.shown(curves[TIME]),
-                quantity.shown(curves[quantity]),
-                **look.of_line,
-                label="exact",
-            )
-            if len(time) <= MARKS:
-                x, y = TIME.shown(time), quantity.shown(values)
-                panel.plot(x, y, label="at the times asked for", **look.of_marks)
+        for panel, quantity in zip(panels, (DEPTH, SPEED), strict=True):
+            exact = quantity.shown(curves[quantity])
+            panel.plot(TIME.shown(curves[TIME]), exact, **line, label="exact")
+            if marks:
+                x, y = TIME.shown(marks[TIME]), quantity.shown(marks[quantity])
+                panel.plot(x, y, label=label, **look_of(impact).of_marks)
             panel.set_ylabel(quantity.title)
             if points:
                 points.draw(panel, TIME, quantity)
@@ -365,31 +378,17 @@ def plot_sheet(sheet: Sheet, title: str = "", points: Points | None = None) -> "
     A row's depth stands half a step behind its time and its velocity. Row 0, the touch, is drawn,
     too.
     """
-    impact, look = sheet.impact, look_of(sheet.impact)
-    every = _every(sheet.steps)
+    impact, every = sheet.impact, _every(sheet.steps)
     rows = (
         sheet.rows[::every] if sheet.steps % every == 0 else [*sheet.rows[::every], sheet.rows[-1]]
     )
-    curves = _exact(impact, max(sheet.rows[-1].time, stop_time(**impact.motion)))
     last = [
         row.velocity_initial if row.velocity_final is None else row.velocity_final for row in rows
     ]
-    drawn = ((DEPTH, [row.depth for row in rows]), (SPEED, last))
+    marks = {TIME: [row.time for row in rows], DEPTH: [row.depth for row in rows], SPEED: last}
+    end = max(sheet.rows[-1].time, stop_time(**impact.motion))
     label = "the sheet, all rows" if every == 1 else f"the sheet, one row of {every}"
-    with styled():
-        figure, panels = _panels(title, 2)
-        for panel, (quantity, marks) in zip(panels, drawn, strict=True):
-            exact = quantity.shown(curves[quantity])
-            panel.plot(TIME.shown(curves[TIME]), exact, color=INK, label="exact")
-            x = TIME.shown([row.time for row in rows])
-            panel.plot(x, quantity.shown(marks), label=label, **look.of_marks)
-            panel.set_ylabel(quantity.title)
-            if points:
-                points.draw(panel, TIME, quantity)
-            _legend(panel)
-        _line_at_radius(panels[0], impact, max(curves[DEPTH]))
-        panels[-1].set_xlabel(TIME.title)
-        return figure
+    return _over_exact(impact, end, {"color": INK}, marks, label, title, points)
 
 
 _PARTS = {
