@@ -102,6 +102,26 @@ def inputs_of(impact: Impact) -> dict[str, float | None]:
     return {**asdict(impact), "resistance": impact.target_resistance}
 
 
+OTHER_FACTOR = {"beta": "flow_stress", "flow_stress": "beta"}
+"""By what the resistance is to be divided, R_t = beta Y_t (Eq. 7)."""
+
+
+def other_factor(impact: Impact, quantity: str) -> float:
+    """Return by what the case's resistance is divided to give its beta or its flow stress.
+
+    Raises ValueError if the case does not have it.
+
+    >>> other_factor(BETA_5, "beta")
+    700000000.0
+    """
+    other = OTHER_FACTOR[quantity]
+    factor: float | None = getattr(impact, other)
+    if factor is None:
+        words, other = quantity.replace("_", " "), other.replace("_", " ")
+        raise ValueError(f"the {words} is the resistance over the {other}: give the {other}")
+    return factor
+
+
 # The models of the final depth
 
 OWN_INPUTS = {"resistance": "Pa", "length_ratio": "1", "k_1": "1", "k_t": "1"}

@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
-from replication.cases import INPUTS
+from replication.cases import INPUTS, OTHER_FACTOR, other_factor
 from replication.columns import bad_rows, column_of, read_columns
 from replication.models import arrays
 from replication.models.depth import elasticities, final_depth
 from replication.models.impact import Impact, InputError, check
 from replication.reading import advice, place, quoted
 
-OTHER_FACTOR = {"resistance": "", "beta": "flow_stress", "flow_stress": "beta"}
-"""What can be fitted, and by which input of the case the resistance is divided (Eq. 7)."""
+FITTABLE = ("resistance", *OTHER_FACTOR)
+"""What can be fitted."""
 
 HEADS = {
     "velocity": ("velocity", "impact velocity", "v"),
@@ -166,14 +166,9 @@ def check_factor(impact: Impact, quantity: str) -> float:
     >>> check_factor(BETA_5, "beta")
     700000000.0
     """
-    if quantity not in OTHER_FACTOR:
-        raise ValueError(f"cannot fit {quoted(quantity)}: {advice(quantity, OTHER_FACTOR)}")
-    other = OTHER_FACTOR[quantity]
-    factor = getattr(impact, other) if other else 1.0
-    if factor is None:
-        words, other = quantity.replace("_", " "), other.replace("_", " ")
-        raise ValueError(f"the {words} is the resistance over the {other}: give the {other}")
-    return float(factor)
+    if quantity not in FITTABLE:
+        raise ValueError(f"cannot fit {quoted(quantity)}: {advice(quantity, FITTABLE)}")
+    return other_factor(impact, quantity) if quantity in OTHER_FACTOR else 1.0
 
 
 def _slope(measurement: Measurement, resistance: float) -> float:

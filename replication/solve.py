@@ -9,7 +9,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from replication.cases import INPUTS, changed
+from replication.cases import INPUTS, OTHER_FACTOR, changed, other_factor
 from replication.models import arrays, inverse
 from replication.models.impact import Impact
 from replication.reading import advice, place, quoted, read_number, read_printed
@@ -33,8 +33,6 @@ _INVERSES: Mapping[str, Callable[..., float]] = {
     "particle_density": arrays.particle_density_for_depth,
     "target_density": arrays.target_density_for_depth,
 }
-_OTHER_FACTOR = {"beta": "flow_stress", "flow_stress": "beta"}
-"""By what the resistance is to be divided, R_t = beta Y_t (Eq. 7)."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +68,7 @@ def solve(impact: Impact, quantity: str, depth: float) -> Solution:
     ('25.5', '-1.94')
     """
     inputs = inputs_but(impact, quantity)
-    sought = "resistance" if quantity in _OTHER_FACTOR else quantity
+    sought = "resistance" if quantity in OTHER_FACTOR else quantity
     motion = {name: value for name, value in impact.motion.items() if name != sought}
     y = depth / impact.radius if quantity != "radius" else None
     answer = Solution(quantity, inputs, depth, y)
@@ -82,7 +80,7 @@ def solve(impact: Impact, quantity: str, depth: float) -> Solution:
     del case["radius"]
     condition = inverse.conditions(**case)[sought]
     y = arrays.normalized_depth(**case) if y is None else y
-    factor = inputs[_OTHER_FACTOR[quantity]] if quantity in _OTHER_FACTOR else 1.0
+    factor = inputs[OTHER_FACTOR[quantity]] if quantity in OTHER_FACTOR else 1.0
     return replace(answer, value=value / factor, condition=condition, normalized_depth=y)
 
 
@@ -94,13 +92,8 @@ def inputs_but(impact: Impact, quantity: str) -> dict[str, float]:
     if quantity not in QUANTITIES:
         raise ValueError(f"cannot solve for {quoted(quantity)}: {advice(quantity, QUANTITIES)}")
     inputs = {name: value for name, value in impact.motion.items() if name != "resistance"}
-    if quantity in _OTHER_FACTOR:
-        other = _OTHER_FACTOR[quantity]
-        factor = getattr(impact, other)
-        if factor is None:
-            name, other = quantity.replace("_", " "), other.replace("_", " ")
-            raise ValueError(f"the {name} is the resistance over the {other}: give the {other}")
-        inputs[other] = factor
+    if quantity in OTHER_FACTOR:
+        inputs[OTHER_FACTOR[quantity]] = other_factor(impact, quantity)
     elif quantity != "resistance":
         parts = {"beta": impact.beta, "flow_stress": impact.flow_stress}
         whole = {"resistance": impact.resistance}

@@ -5,6 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from replication.cases import OTHER_FACTOR
 from replication.cli.case import (
     add_inputs,
     case_of,
@@ -17,7 +18,7 @@ from replication.cli.case import (
 from replication.cli.options import add_csv_and_json, add_quiet, one_of, path
 from replication.cli.output import filled, put
 from replication.cli.picture import add_plot, checked, draw
-from replication.fit import OTHER_FACTOR, Fit, Measurement, check_factor, fit, read_measurements
+from replication.fit import FITTABLE, Fit, Measurement, check_factor, fit, read_measurements
 from replication.models.depth import final_depth
 from replication.reading import place
 from replication.text import aligned, number, numbers
@@ -28,7 +29,7 @@ if TYPE_CHECKING:
 HELP = "fit the resistance, or beta, to measured velocities and depths"
 EXAMPLE = "coldspray fit measured.csv --quantity beta --flow-stress '700 MPa'"
 
-NAMES = {name.replace("_", "-"): name for name in OTHER_FACTOR}
+NAMES = {name.replace("_", "-"): name for name in FITTABLE}
 """What can be fitted, as it is typed."""
 
 
@@ -62,7 +63,7 @@ def run(options: argparse.Namespace) -> int:
         fitted = fit(case, measurements, quantity)
     warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))
     inputs = _common_inputs(measurements)
-    if other := OTHER_FACTOR[quantity]:
+    if other := OTHER_FACTOR.get(quantity):
         inputs[other] = fitted.resistance / fitted.value
     rows = _rows(fitted, measurements)
     draw(options, lambda: _figure(options.file, fitted, measurements, inputs))
