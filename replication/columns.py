@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from reference.units import UnitError, unit_dimension
-from replication.reading import place, quoted, read_number
+from replication.reading import content_of, place, quoted, read_number
 
 LARGEST_FILE = 2**26
 
@@ -82,10 +82,9 @@ def read_columns(path: Path) -> list[Column]:
     The file must be UTF-8 text of at most 64 MiB, with a head for every column and no head twice,
     and at least one row.
     """
-    if path.is_char_device():
-        raise ValueError(f"{path} is a device, not a file")
+    content = content_of(path, LARGEST_FILE)
     with place(str(path)):
-        rows = list(_rows(_text(path)))
+        rows = list(_rows(_text(content)))
         if len(rows) < 2:
             raise ValueError("has no row of numbers below a row of heads")
     (head_line, heads), *body = rows
@@ -108,13 +107,7 @@ def read_columns(path: Path) -> list[Column]:
     return columns
 
 
-def _text(path: Path) -> str:
-    try:
-        with path.open("rb") as file:
-            content = file.read(LARGEST_FILE + 1)
-    except OSError as error:
-        error.filename = str(path)
-        raise
+def _text(content: bytes) -> str:
     if len(content) > LARGEST_FILE:
         raise ValueError(f"is larger than {LARGEST_FILE:,} bytes")
     try:

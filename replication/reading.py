@@ -99,6 +99,21 @@ def _parsed(content: bytes) -> dict[str, Any]:
         raise ValueError(f"holds a whole number of more than {digits} digits") from error
 
 
+def content_of(path: Path, most: int) -> bytes:
+    """Return the bytes of a file; if there are more than `most`, one more than that.
+
+    Raises OSError that names the file, or ValueError for a device, which might never end.
+    """
+    if path.is_char_device():
+        raise ValueError(f"{path} is a device, not a file")
+    try:
+        with path.open("rb") as file:
+            return file.read(most + 1)
+    except OSError as error:
+        error.filename = str(path)  # an error while reading does not name the file by itself
+        raise
+
+
 @contextmanager
 def tables_of(
     path: Path, wanted: Sequence[str], allowed: Sequence[str] = ()
@@ -108,14 +123,7 @@ def tables_of(
     The file must have every table of `wanted`, and may have those of `allowed`. Raises OSError, or
     ValueError if the file is too large, is not TOML, or has other tables.
     """
-    if path.is_char_device():
-        raise ValueError(f"{path} is a device, not a file")
-    try:
-        with path.open("rb") as file:
-            content = file.read(_LARGEST_FILE + 1)
-    except OSError as error:
-        error.filename = str(path)  # an error while reading does not name the file by itself
-        raise
+    content = content_of(path, _LARGEST_FILE)
     if len(content) > _LARGEST_FILE:
         raise ValueError(f"{path} is larger than {_LARGEST_FILE:,} bytes")
     with place(str(path)):
