@@ -8,7 +8,7 @@ neither NumPy nor Numba. Everything is in SI units.
 
 import inspect
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, partial, wraps
 from typing import Any
 
@@ -345,10 +345,8 @@ def _refuse(
     import numpy as np
 
     arrays = np.broadcast_arrays(result, *numbers.values())
-    for place in np.argwhere(_unusual(arrays[1:]) | ~np.isfinite(arrays[0])).tolist():
-        index = tuple(place)
-        value, *values = (float(array[index]) for array in arrays)
-        case = dict(zip(numbers, values, strict=True))
+    doubtful = _unusual(arrays[1:]) | ~np.isfinite(arrays[0])
+    for index, value, case in _elements(arrays, doubtful, numbers):
         try:
             check(case)
             range_check(**case)
@@ -365,10 +363,7 @@ def _refuse_solutions(numbers: Mapping[str, Any], name: str, result: Any, single
     arrays = np.broadcast_arrays(result, *numbers.values())
     # Of usual inputs NaN can only mean that there is no solution.
     doubtful = _unusual(arrays[1:]) | (_unusual(arrays[:1]) & (single | ~np.isnan(arrays[0])))
-    for place in np.argwhere(doubtful).tolist():
-        index = tuple(place)
-        value, *values = (float(array[index]) for array in arrays)
-        case = dict(zip(numbers, values, strict=True))
+    for index, value, case in _elements(arrays, doubtful, numbers):
         try:
             inverse.check_solution(name, value, **case)
         except inverse.NoSolutionError:
@@ -376,6 +371,18 @@ def _refuse_solutions(numbers: Mapping[str, Any], name: str, result: Any, single
                 raise
         except InputError as error:
             raise _at_place(error, index, case, numbers) from None
+
+
+def _elements(
+    arrays: Sequence[Any], where: Any, names: Iterable[str]
+) -> Iterator[tuple[tuple[int, ...], float, dict[str, float]]]:
+    """Yield index, result and inputs of each element there, from arrays of just these."""
+    import numpy as np
+
+    for place in np.argwhere(where).tolist():
+        index = tuple(place)
+        value, *values = (float(array[index]) for array in arrays)
+        yield index, value, dict(zip(names, values, strict=True))
 
 
 def _unusual(arrays: Sequence[Any]) -> Any:
