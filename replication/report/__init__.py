@@ -4,7 +4,6 @@ import re
 from collections.abc import Mapping, Sequence
 from functools import cache
 from hashlib import sha256
-from textwrap import fill
 from typing import Any
 
 from msgspec.structs import replace
@@ -26,6 +25,7 @@ from replication.text import (
     rows_csv,
     table_text,
 )
+from replication.text import prose as filled
 
 FILES = (
     "audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt", "workbook.xlsx",
@@ -188,11 +188,7 @@ def _on_terminal(
     name: str, prose: Prose, parts: Mapping[str, Any], width: int, strong: bool
 ) -> str:
     def wrapped(text: str, indent: str = "") -> str:
-        hanging = indent and indent + "  "
-        return fill(
-            text, width, initial_indent=indent, subsequent_indent=hanging,
-            break_on_hyphens=False, break_long_words=False,
-        )  # fmt: skip
+        return filled(text, width, indent, indent and indent + "  ")
 
     def in_columns(rows: Sequence[tuple[str, ...]]) -> str:
         return columns([tuple(map(prose, row)) for row in rows], width)
