@@ -57,6 +57,37 @@ class Pair:
                 if a.cells.get(at) != b.cells.get(at)}  # fmt: skip
 
 
+RESISTANCE_ELSEWHERE = (
+    clear("G1"),
+    clear("H1"),
+    clear("G2"),
+    clear("H2"),
+    put("J4", "beta"),
+    put("K4", 5),
+    put("J5", "Yt"),
+    put("K5", 700000000.0),
+    put("B6", "=K4*K5"),
+)
+
+DENSITY_ELSEWHERE = (
+    clear("D1"),
+    clear("E1"),
+    put("J8", "target density"),
+    put("K8", 7850),
+    fill("E9:E60", "=(0.5*$K$8*C9^2+$B$6)*PI()*($B$4*D9-D9^2)/$B$3"),
+)
+
+SLIGHTLY_OTHER = (put("B5", 500.02), put("D60", "=D59+C60*$E$2*1.0001"))
+
+
+def _notes(*words: str, numbered: bool = False) -> tuple[Edit, ...]:
+    """Notes on a sheet of their own: a word, two numbers if so wanted, the word in brackets."""
+    return tuple(
+        put(f"Notes!B{row}", word, *((row, 2 * row) if numbered else ()), f"({word})")
+        for row, word in enumerate(words, 3)
+    )
+
+
 PAIRS = (
     Pair("nothing", 0),
     Pair("an input", 1, after=(put("B5", 450),)),
@@ -138,17 +169,7 @@ PAIRS = (
     Pair(
         "a block elsewhere",
         1,
-        after=(
-            clear("G1"),
-            clear("H1"),
-            clear("G2"),
-            clear("H2"),
-            put("J4", "beta"),
-            put("K4", 5),
-            put("J5", "Yt"),
-            put("K5", 700000000.0),
-            put("B6", "=K4*K5"),
-        ),
+        after=RESISTANCE_ELSEWHERE,
     ),
     Pair("notes beside", 1, after=(put("H20", "note"), put("H21", 3), put("J30", "another"))),
     Pair("a sheet more", 1, after=(put("Notes!A1", "hello"),)),
@@ -231,22 +252,7 @@ PAIRS = (
     Pair(
         "two blocks elsewhere",
         1,
-        after=(
-            clear("G1"),
-            clear("H1"),
-            clear("G2"),
-            clear("H2"),
-            put("J4", "beta"),
-            put("K4", 5),
-            put("J5", "Yt"),
-            put("K5", 700000000.0),
-            put("B6", "=K4*K5"),
-            clear("D1"),
-            clear("E1"),
-            put("J8", "target density"),
-            put("K8", 7850),
-            fill("E9:E60", "=(0.5*$K$8*C9^2+$B$6)*PI()*($B$4*D9-D9^2)/$B$3"),
-        ),
+        after=RESISTANCE_ELSEWHERE + DENSITY_ELSEWHERE,
     ),
     Pair(
         "lines of notes",
@@ -421,189 +427,94 @@ PAIRS = (
     Pair(
         "two blocks elsewhere, the other way round",
         1,
-        after=(
-            clear("G1"),
-            clear("H1"),
-            clear("G2"),
-            clear("H2"),
-            put("J4", "beta"),
-            put("K4", 5),
-            put("J5", "Yt"),
-            put("K5", 700000000.0),
-            put("B6", "=K4*K5"),
-            clear("D1"),
-            clear("E1"),
-            put("J8", "target density"),
-            put("K8", 7850),
-            fill("E9:E60", "=(0.5*$K$8*C9^2+$B$6)*PI()*($B$4*D9-D9^2)/$B$3"),
-        ),
+        after=RESISTANCE_ELSEWHERE + DENSITY_ELSEWHERE,
         reverse=True,
     ),
     Pair("an input, the other way round", 1, after=(put("B5", 450),), reverse=True),
     Pair(
         "within 4 digits",
         1,
-        after=(put("B5", 500.02), put("D60", "=D59+C60*$E$2*1.0001")),
+        after=SLIGHTLY_OTHER,
         options=("--digits=4",),
     ),
     Pair(
         "within 5 digits",
         1,
-        after=(put("B5", 500.02), put("D60", "=D59+C60*$E$2*1.0001")),
+        after=SLIGHTLY_OTHER,
         options=("--digits=5",),
     ),
     Pair(
         "within 1e-4 of the number",
         1,
-        after=(put("B5", 500.02), put("D60", "=D59+C60*$E$2*1.0001")),
+        after=SLIGHTLY_OTHER,
         options=("--relative=1e-4",),
     ),
     Pair(
         "within 1e9 ulp",
         1,
-        after=(put("B5", 500.02), put("D60", "=D59+C60*$E$2*1.0001")),
+        after=SLIGHTLY_OTHER,
         options=("--ulp=1000000000",),
     ),
     Pair(
         "values only",
         1,
-        after=(put("B5", 500.02), put("D60", "=D59+C60*$E$2*1.0001")),
+        after=SLIGHTLY_OTHER,
         options=("--values-only",),
     ),
     Pair(
         "notes 1 with 0 numbers",
         1,
-        before=(
-            put("Notes!B3", "one", "(one)"),
-            put("Notes!B4", "two", "(two)"),
-            put("Notes!B5", "three", "(three)"),
-            put("Notes!B6", "four", "(four)"),
-            put("Notes!B7", "five", "(five)"),
-        ),
-        after=(
-            put("Notes!B3", "alpha", "(alpha)"),
-            put("Notes!B4", "one", "(one)"),
-            put("Notes!B5", "beta", "(beta)"),
-            put("Notes!B6", "three", "(three)"),
-            put("Notes!B7", "four", "(four)"),
-            put("Notes!B8", "five", "(five)"),
-            put("Notes!B9", "gamma", "(gamma)"),
-        ),
+        before=_notes("one", "two", "three", "four", "five"),
+        after=_notes("alpha", "one", "beta", "three", "four", "five", "gamma"),
         steps=5,
     ),
     Pair(
         "notes 1 with 2 numbers",
         1,
-        before=(
-            put("Notes!B3", "one", 3, 6, "(one)"),
-            put("Notes!B4", "two", 4, 8, "(two)"),
-            put("Notes!B5", "three", 5, 10, "(three)"),
-            put("Notes!B6", "four", 6, 12, "(four)"),
-            put("Notes!B7", "five", 7, 14, "(five)"),
-        ),
-        after=(
-            put("Notes!B3", "alpha", 3, 6, "(alpha)"),
-            put("Notes!B4", "one", 4, 8, "(one)"),
-            put("Notes!B5", "beta", 5, 10, "(beta)"),
-            put("Notes!B6", "three", 6, 12, "(three)"),
-            put("Notes!B7", "four", 7, 14, "(four)"),
-            put("Notes!B8", "five", 8, 16, "(five)"),
-            put("Notes!B9", "gamma", 9, 18, "(gamma)"),
-        ),
+        before=_notes("one", "two", "three", "four", "five", numbered=True),
+        after=_notes("alpha", "one", "beta", "three", "four", "five", "gamma", numbered=True),
         steps=5,
     ),
     Pair(
         "notes 2 with 0 numbers",
         1,
-        before=(
-            put("Notes!B3", "zero", "(zero)"),
-            put("Notes!B4", "two", "(two)"),
-            put("Notes!B5", "three and more", "(three and more)"),
-            put("Notes!B6", "five", "(five)"),
-            put("Notes!B7", "six", "(six)"),
-        ),
-        after=(
-            put("Notes!B3", "one", "(one)"),
-            put("Notes!B4", "two", "(two)"),
-            put("Notes!B5", "three", "(three)"),
-            put("Notes!B6", "four", "(four)"),
-            put("Notes!B7", "five", "(five)"),
-        ),
+        before=_notes("zero", "two", "three and more", "five", "six"),
+        after=_notes("one", "two", "three", "four", "five"),
         steps=5,
     ),
     Pair(
         "notes 2 with 2 numbers",
         1,
-        before=(
-            put("Notes!B3", "zero", 3, 6, "(zero)"),
-            put("Notes!B4", "two", 4, 8, "(two)"),
-            put("Notes!B5", "three and more", 5, 10, "(three and more)"),
-            put("Notes!B6", "five", 6, 12, "(five)"),
-            put("Notes!B7", "six", 7, 14, "(six)"),
-        ),
-        after=(
-            put("Notes!B3", "one", 3, 6, "(one)"),
-            put("Notes!B4", "two", 4, 8, "(two)"),
-            put("Notes!B5", "three", 5, 10, "(three)"),
-            put("Notes!B6", "four", 6, 12, "(four)"),
-            put("Notes!B7", "five", 7, 14, "(five)"),
-        ),
+        before=_notes("zero", "two", "three and more", "five", "six", numbered=True),
+        after=_notes("one", "two", "three", "four", "five", numbered=True),
         steps=5,
     ),
     Pair(
         "notes 3 with 0 numbers",
         1,
-        before=(put("Notes!B3", "one", "(one)"),),
-        after=(
-            put("Notes!B3", "zero", "(zero)"),
-            put("Notes!B4", "two", "(two)"),
-            put("Notes!B5", "three and more", "(three and more)"),
-            put("Notes!B6", "five", "(five)"),
-            put("Notes!B7", "six", "(six)"),
-        ),
+        before=_notes("one"),
+        after=_notes("zero", "two", "three and more", "five", "six"),
         steps=5,
     ),
     Pair(
         "notes 3 with 2 numbers",
         1,
-        before=(put("Notes!B3", "one", 3, 6, "(one)"),),
-        after=(
-            put("Notes!B3", "zero", 3, 6, "(zero)"),
-            put("Notes!B4", "two", 4, 8, "(two)"),
-            put("Notes!B5", "three and more", 5, 10, "(three and more)"),
-            put("Notes!B6", "five", 6, 12, "(five)"),
-            put("Notes!B7", "six", 7, 14, "(six)"),
-        ),
+        before=_notes("one", numbered=True),
+        after=_notes("zero", "two", "three and more", "five", "six", numbered=True),
         steps=5,
     ),
     Pair(
         "notes 4 with 0 numbers",
         1,
-        before=(
-            put("Notes!B3", "alpha", "(alpha)"),
-            put("Notes!B4", "one", "(one)"),
-            put("Notes!B5", "beta", "(beta)"),
-            put("Notes!B6", "three", "(three)"),
-            put("Notes!B7", "four", "(four)"),
-            put("Notes!B8", "five", "(five)"),
-            put("Notes!B9", "gamma", "(gamma)"),
-        ),
-        after=(put("Notes!B3", "one", "(one)"),),
+        before=_notes("alpha", "one", "beta", "three", "four", "five", "gamma"),
+        after=_notes("one"),
         steps=5,
     ),
     Pair(
         "notes 4 with 2 numbers",
         1,
-        before=(
-            put("Notes!B3", "alpha", 3, 6, "(alpha)"),
-            put("Notes!B4", "one", 4, 8, "(one)"),
-            put("Notes!B5", "beta", 5, 10, "(beta)"),
-            put("Notes!B6", "three", 6, 12, "(three)"),
-            put("Notes!B7", "four", 7, 14, "(four)"),
-            put("Notes!B8", "five", 8, 16, "(five)"),
-            put("Notes!B9", "gamma", 9, 18, "(gamma)"),
-        ),
-        after=(put("Notes!B3", "one", 3, 6, "(one)"),),
+        before=_notes("alpha", "one", "beta", "three", "four", "five", "gamma", numbered=True),
+        after=_notes("one", numbered=True),
         steps=5,
     ),
 )
