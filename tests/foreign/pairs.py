@@ -58,10 +58,7 @@ class Pair:
 
 
 RESISTANCE_ELSEWHERE = (
-    clear("G1"),
-    clear("H1"),
-    clear("G2"),
-    clear("H2"),
+    clear("G1", "H1", "G2", "H2"),
     put("J4", "beta"),
     put("K4", 5),
     put("J5", "Yt"),
@@ -70,8 +67,7 @@ RESISTANCE_ELSEWHERE = (
 )
 
 DENSITY_ELSEWHERE = (
-    clear("D1"),
-    clear("E1"),
+    clear("D1", "E1"),
     put("J8", "target density"),
     put("K8", 7850),
     fill("E9:E60", "=(0.5*$K$8*C9^2+$B$6)*PI()*($B$4*D9-D9^2)/$B$3"),
