@@ -59,17 +59,14 @@ class Pair:
 
 RESISTANCE_ELSEWHERE = (
     clear("G1", "H1", "G2", "H2"),
-    put("J4", "beta"),
-    put("K4", 5),
-    put("J5", "Yt"),
-    put("K5", 700000000.0),
+    put("J4", "beta", 5),
+    put("J5", "Yt", 700000000.0),
     put("B6", "=K4*K5"),
 )
 
 DENSITY_ELSEWHERE = (
     clear("D1", "E1"),
-    put("J8", "target density"),
-    put("K8", 7850),
+    put("J8", "target density", 7850),
     fill("E9:E60", "=(0.5*$K$8*C9^2+$B$6)*PI()*($B$4*D9-D9^2)/$B$3"),
 )
 
@@ -179,8 +176,7 @@ PAIRS = (
             put("J1", "=D60*1E6"),
             moved("A31:F60", -1, 0),
             put("A30", "=#REF!+$E$2"),
-            put("C30", "=#REF!"),
-            put("D30", "=#REF!+C30*$E$2"),
+            put("C30", "=#REF!", "=#REF!+C30*$E$2"),
         ),
     ),
     Pair(
@@ -317,12 +313,10 @@ PAIRS = (
     Pair(
         "a block elsewhere, and a formula in it",
         1,
-        before=(put("G4", "ratio"), put("H4", "=B2/E1"), put("G5", "other"), put("H5", "=B1/B4")),
+        before=(put("G4", "ratio", "=B2/E1"), put("G5", "other", "=B1/B4")),
         after=(
-            put("G4", "ratio"),
-            put("H4", "=B2/E1"),
-            put("G5", "other"),
-            put("H5", "=B1/B4"),
+            put("G4", "ratio", "=B2/E1"),
+            put("G5", "other", "=B1/B4"),
             moved("G4:H5", 8, 3),
             put("K13", "=B1/(2*B4)"),
         ),

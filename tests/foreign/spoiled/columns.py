@@ -222,8 +222,7 @@ CASES = (
         "no row of the impact",
         CLEAN,
         clear("A8", "C8", "D8", "E8"),
-        put("C9", "=B5"),
-        put("D9", "=C9*$E$2/2"),
+        put("C9", "=B5", "=C9*$E$2/2"),
         put("A9", "=$E$2"),
     ),
     case(

@@ -198,8 +198,7 @@ CASES = (
     case(
         "an input of one of two tables a text",
         fault("typed number", "H3"),
-        put("G3", "V (m/s)"),
-        put("H3", "500 m/s"),
+        put("G3", "V (m/s)", "500 m/s"),
         put("C14", "=$H$3"),
         put("C15", "=$H$3"),
         layout="side-by-side",
@@ -209,8 +208,7 @@ CASES = (
         CLEAN,
         copied("Second"),
         put("Second!H1", 3),
-        put("J1", "Final depth, um"),
-        put("K1", "=Second!D60*1E6"),
+        put("J1", "Final depth, um", "=Second!D60*1E6"),
     ),
     # results of several tables
     case(
