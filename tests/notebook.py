@@ -9,10 +9,12 @@ import ast
 import base64
 import io
 import json
+from code import InteractiveInterpreter
 from collections.abc import Iterator
 from contextlib import chdir, redirect_stdout
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
 
 Output = dict[str, Any]
 
@@ -36,16 +38,21 @@ def executed(path: Path) -> Iterator[tuple[dict[str, Any], list[Output], Any]]:
 
 
 def _run(source: str, names: dict[str, Any]) -> tuple[str, Any]:
-    """Run a cell; return what it prints, and the value of its last line."""
+    """Run a cell; return what it prints, and the value of its last line, as a prompt shows it."""
     *body, last = ast.parse(source).body
-    value, printed = None, io.StringIO()
-    with redirect_stdout(printed):
-        if isinstance(last, ast.Expr):
-            exec(compile(ast.Module(body, []), "cell", "exec"), names)
-            value = eval(compile(ast.Expression(last.value), "cell", "eval"), names)
-        else:
-            exec(compile(ast.Module([*body, last], []), "cell", "exec"), names)
-    return printed.getvalue(), value
+    shown: list[Any] = [None]
+    interpreter = _Interpreter(names)
+    with redirect_stdout(io.StringIO()) as printed, patch("sys.displayhook", shown.append):
+        interpreter.runcode(compile(ast.Module(body, []), "cell", "exec"))
+        interpreter.runcode(compile(ast.Interactive([last]), "cell", "single"))
+    return printed.getvalue(), shown[-1]
+
+
+class _Interpreter(InteractiveInterpreter):
+    """Python's own, except that an error in a cell is raised, not printed."""
+
+    def showtraceback(self) -> None:
+        raise
 
 
 def _shown(value: Any) -> Output:

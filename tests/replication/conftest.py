@@ -1,4 +1,4 @@
-"""A folder of files that are hard to read, for the tests of the command line."""
+"""The report's workbook; and a folder of files that are hard to read."""
 
 import io
 import os
@@ -9,12 +9,21 @@ from pathlib import Path
 import pytest
 from running import coldspray
 
+from replication.audit.record import Record
+from replication.workbook import build
+
 FILES = {
     "deep.toml": "[impact]\nradius = " + 5000 * "[",
     "empty.toml": "",
     "own.toml": '[impact]\nvelocity = 450\nradius = "22 um"\nbeta = 3.0\n',
     "plan.csv": "[inputs]",
 }
+
+
+@pytest.fixture(scope="session")
+def our_own(record: Record) -> bytes:
+    """The report's workbook, as `coldspray workbook` writes it."""
+    return build(record=record).to_bytes()
 
 
 @pytest.fixture(scope="session")

@@ -14,11 +14,9 @@ from foreign.layouts import Foreign
 from openpyxl import Workbook, load_workbook
 from running import coldspray
 
-from replication.audit.record import Record
 from replication.cases import BETA_5
 from replication.check.diff import KINDS, Tolerance, diff
 from replication.check.matching import in_order
-from replication.workbook import build
 
 CASES = Path(__file__).parents[1] / "foreign" / "cases" / "diff"
 Row = list[float | str | None]
@@ -228,9 +226,9 @@ def test_values_near_the_largest_double_are_compared(tmp_path: Path) -> None:
     assert places(a, b, "--relative", "0.1", "--digits", "3") == ["value A1", "value B2"]
 
 
-def test_our_own_workbook_is_equal_to_itself(record: Record, tmp_path: Path) -> None:
+def test_our_own_workbook_is_equal_to_itself(our_own: bytes, tmp_path: Path) -> None:
     own = tmp_path / "own.xlsx"
-    own.write_bytes(build(record=record).to_bytes())
+    own.write_bytes(our_own)
     assert places(own, own) == []
 
 

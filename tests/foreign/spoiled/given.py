@@ -20,11 +20,7 @@ CASES = (
     case(
         "--map of the velocity at the end, no heads",
         CLEAN,
-        clear("A7"),
-        clear("C7"),
-        clear("D7"),
-        clear("E7"),
-        clear("F7"),
+        clear("A7", "C7", "D7", "E7", "F7"),
         given={"velocity": "F9:F60"},
     ),
     case(
