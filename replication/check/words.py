@@ -282,23 +282,6 @@ def unit_power(unit: str | None) -> int | None:
     return power_of_ten(float(to_si(unit))) if unit not in (None, "1") else None
 
 
-def between_units(power: int, role: str, surely: bool = False) -> bool:
-    """Whether two units of a quantity may differ by a power of ten.
-
-    Units mostly lie a thousand apart, centimetres and metres a hundred. Only a pressure has a unit
-    a tenth of another: dyn/cm² is 0.1 Pa. `surely` allows powers of a thousand only: a number ten
-    or a hundred times the report's may as well be another value on purpose.
-
-    >>> between_units(-2, "radius"), between_units(1, "radius"), between_units(-1, "flow_stress")
-    (True, False, True)
-    >>> between_units(-2, "radius", surely=True), between_units(-3, "radius", surely=True)
-    (False, True)
-    """
-    if surely:
-        return power % 3 == 0
-    return power not in (-1, 1) or _MEASURES[role] == "Pa"
-
-
 def times_too(power: int) -> str:
     """Say by which power of ten a number is too large or too small.
 
