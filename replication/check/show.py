@@ -8,10 +8,11 @@ from typing import Any
 from reference.units import written
 from replication import page
 from replication.check.delimited import column_at, where
+from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, Difference, Examination
 from replication.check.shown import anchor, drawn, safe, whereabouts, wrapped
 from replication.check.table import Line, Table, address
-from replication.check.words import COLUMNS, INPUTS, count, is_unit, unit_text
+from replication.check.words import COLUMNS, INPUTS, is_unit, unit_text
 from replication.check.workbook import Check
 from replication.text import aligned, quantity, with_unit
 from spreadsheets.evaluate import Evaluator
@@ -68,7 +69,7 @@ def _verdict(check: Check) -> str:
     causes, faults, exams = check.causes, check.faults, check.examinations
     if not faults:
         others = sum(d.kind == "other input" for d in check.differences)
-        inputs = f", with {count(others, 'other input')}" if others else ""
+        inputs = f", with {counted(others, 'other input')}" if others else ""
         extent = "" if any(exam.ends for exam in exams) else " as far as it goes"
         places = {place for exam in exams for place in exam.table.places}
         formulas = check.evaluator.formulas
@@ -83,10 +84,12 @@ def _verdict(check: Check) -> str:
             return f"Clean{extent}: the report's sheet{inputs}, row by row, to its digits."
         return f"Clean{extent}: the report's sheet{inputs}, cell by cell{numbers}."
     if not causes:
-        return f"The sheet is right, with {count(len(faults), 'number')} beside it not as printed."
-    sentence = f"{count(len(causes), 'difference')} from the report's sheet"
+        return (
+            f"The sheet is right, with {counted(len(faults), 'number')} beside it not as printed."
+        )
+    sentence = f"{counted(len(causes), 'difference')} from the report's sheet"
     if unmet := len(faults) - len(causes):
-        sentence += f", {count(unmet, 'printed number')} not met"
+        sentence += f", {counted(unmet, 'printed number')} not met"
     for exam in exams:
         if (depths := _wrong_depth(exam)) is not None:
             reached, right = (f"{depth * 1e6:.7g} um" for depth in depths)

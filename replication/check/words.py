@@ -16,6 +16,7 @@ from functools import cache
 from importlib import resources
 
 from reference.units import is_known, same_dimension, to_si
+from replication.check.difference import counted
 from replication.text import with_unit
 
 _WORDS: dict[str, dict[str, str]] = tomllib.loads(
@@ -316,15 +317,6 @@ def digits_of(value: float) -> tuple[int, int]:
     return len(number.digits), int(number.exponent)
 
 
-def count(number: int, what: str) -> str:
-    """Return a number and the noun that it counts.
-
-    >>> count(1, "cell"), count(2, "cell")
-    ('1 cell', '2 cells')
-    """
-    return f"{number:,} {what}" if number == 1 else f"{number:,} {what}s"
-
-
 def share(some: Sized, of: Sized, what: str) -> str:
     """Say how many of some things, such as "2 of 4 formulas".
 
@@ -332,5 +324,5 @@ def share(some: Sized, of: Sized, what: str) -> str:
     ('2 of 4 formulas', 'all 2 formulas', '1 of 1 formula')
     """
     if len(some) == len(of) > 1:
-        return f"all {count(len(of), what)}"
-    return f"{len(some):,} of {count(len(of), what)}"
+        return f"all {counted(len(of), what)}"
+    return f"{len(some):,} of {counted(len(of), what)}"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from reference.units import same_dimension
 from replication.check.delimited import read_any
+from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, AnotherModelError, Difference, Examination
 from replication.check.judge import examine
 from replication.check.labels import cell_names, label_of
@@ -18,7 +19,6 @@ from replication.check.words import (
     COLUMNS,
     INPUTS,
     column_roles,
-    count,
     input_roles,
     is_unit,
     share,
@@ -440,7 +440,7 @@ def _nothing(evaluator: Evaluator) -> str:
     for place in sorted(evaluator.unknown)[:1]:
         nothing += f"; {address(place, True)} is not computed: {evaluator.reasons[place]}"
     if first:
-        errors = f"errors in {count(len(wrong), 'formula')}, {address(first, True)} first"
+        errors = f"errors in {counted(len(wrong), 'formula')}, {address(first, True)} first"
         return f"{nothing}; {errors}: {values[first]}"
     if instead:
         return f"{nothing}: type a number there"
