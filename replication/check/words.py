@@ -9,7 +9,7 @@ import math
 import re
 import tomllib
 import unicodedata
-from collections.abc import Callable, Iterable, Sized
+from collections.abc import Callable, Sized
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
@@ -130,15 +130,6 @@ def column_roles(head: str) -> frozenset[str]:
     )
 
 
-def is_end(head: str) -> bool:
-    """Whether a head says no more than which end of a step it belongs to.
-
-    >>> is_end("initial"), is_end("v initial")
-    (True, False)
-    """
-    return bool(_words("velocities", _symbol(head))) and not column_roles(head)
-
-
 @cache
 def input_roles(label: str, unit: str | None) -> frozenset[str]:
     """Return the inputs that a label may name, given the unit beside it, if any.
@@ -237,11 +228,6 @@ def title(role: str) -> str:
     return _WORDS["titles"].get(role) or f"the {role.replace('_', ' ')}"
 
 
-def titles(roles: Iterable[str]) -> str:
-    """Return the names of several columns or inputs, joined by "and"."""
-    return " and ".join(map(title, roles))
-
-
 def quantity(value: float, role: str) -> str:
     """Return a value in SI units as text, with its unit.
 
@@ -274,15 +260,6 @@ def power_of_ten(ratio: float) -> int | None:
     return round(power) if abs(power - round(power)) < 1e-9 else None
 
 
-def unit_power(unit: str | None) -> int | None:
-    """Return the power of ten between a unit and SI, or None if there is no unit or no such power.
-
-    >>> unit_power("um"), unit_power("ksi"), unit_power(None)
-    (-6, None, None)
-    """
-    return power_of_ten(float(to_si(unit))) if unit not in (None, "1") else None
-
-
 def times_too(power: int) -> str:
     """Say by which power of ten a number is too large or too small.
 
@@ -291,20 +268,6 @@ def times_too(power: int) -> str:
     """
     size = f"1e{abs(power)}" if abs(power) > 2 else str(10 ** abs(power))
     return f"{size} times too {'large' if power > 0 else 'small'}"
-
-
-def scaled(value: float, factor: Fraction) -> float:
-    """Return a number times a factor, rounded once from the decimal typed; inf beyond doubles.
-
-    >>> scaled(11.0, Fraction(1, 1_000_000)) == 11e-6
-    True
-    """
-    if factor == 1 or not math.isfinite(value):
-        return value
-    try:
-        return float(Fraction(repr(value)) * factor)
-    except OverflowError:
-        return math.copysign(math.inf, value)
 
 
 def digits_of(value: float) -> tuple[int, int]:
