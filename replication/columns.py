@@ -8,7 +8,7 @@ Without a unit a column is in SI units. Empty rows, and rows that begin with `#`
 
 import csv
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -121,12 +121,20 @@ def _rows(text: str) -> Iterator[tuple[int, list[str]]]:
     lines = text.splitlines(keepends=True)
     first = next((line for line in lines if line.strip() and line.lstrip()[0] != "#"), "")
     bare = re.sub('"[^"]*"', "", first)
-    reader = csv.reader(lines, delimiter=max(",;\t", key=bare.count), skipinitialspace=True)
+    for line, cells in csv_rows(lines, max(",;\t", key=bare.count)):
+        if any(cells) and not cells[0].startswith("#"):
+            yield line, cells
+
+
+def csv_rows(lines: Iterable[str], separator: str) -> Iterator[tuple[int, list[str]]]:
+    """Yield the rows of CSV without blanks around cells, each with the number of its last line.
+
+    Raises ValueError that names the line.
+    """
+    reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
     try:
         for row in reader:
-            cells = [cell.strip() for cell in row]
-            if any(cells) and not cells[0].startswith("#"):
-                yield reader.line_num, cells
+            yield reader.line_num, [cell.strip() for cell in row]
     except csv.Error as error:
         raise ValueError(f"line {reader.line_num} is not CSV: {error}") from error
 

@@ -67,6 +67,9 @@ _OLE_START = bytes.fromhex("D0CF11E0A1B11AE1")
 _EPOCHS = {False: datetime(1899, 12, 30), True: datetime(1904, 1, 1)}
 """Day 0 of dates as numbers; the first is right from March 1900 on, as Excel counts."""
 
+_FEW = 3
+"""So few formulas may store 0 because they are calculated, or are stale; more were never."""
+
 _LIMITS = f"this program reads up to {MAX_CELLS:,} cells and {MAX_FORMULAS:,} formulas"
 _WANTED = "give an .xlsx or .xlsm file without a password"
 
@@ -144,6 +147,19 @@ class Book:
 
 
 _BLANK = Cell(None, None)
+
+
+def without_zeros(book: Book) -> Book:
+    """The book without stored values, if its program stored 0 for every formula; else unchanged."""
+    stored = [cell.value for _, cell in book.cells() if cell.formula is not None]
+    if len(stored) <= _FEW or any(type(value) is not float or value != 0 for value in stored):
+        return book
+    note = "every formula stores 0, as some programs write it: none is calculated"
+    sheets = {
+        sheet: {at: c._replace(value=None) if c.formula else c for at, c in cells.items()}
+        for sheet, cells in book.sheets.items()
+    }
+    return replace(book, sheets=sheets, notes=(*book.notes, note))
 
 
 def read(path: Path) -> Book:

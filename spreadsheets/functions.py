@@ -514,6 +514,12 @@ def _at(area: Area, index: int) -> One:
     return One(area.sheet, area.top, area.left + index)
 
 
+def _searched(arguments: Arguments, at: Site) -> tuple[Scalar, Area]:
+    """What a function looks for, and where: its first two arguments."""
+    wanted = scalar(arguments[0](at) if arguments[0] else 0.0, at)
+    return wanted, _area_argument(arguments[1], at)
+
+
 def _found(wanted: Scalar, values: Values, kind: int) -> int:
     """Where a value stands: exactly (0), the last not above it (1), the last not below it (-1)."""
     if kind == 0:
@@ -540,8 +546,7 @@ def _match(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 2, 3)
 
     def run(at: Site) -> object:
-        wanted = scalar(arguments[0](at) if arguments[0] else 0.0, at)
-        area = _area_argument(arguments[1], at)
+        wanted, area = _searched(arguments, at)
         kind = _whole(arguments[2], at) if len(arguments) > 2 else 1
         return float(_found(wanted, _line(area, at), kind) + 1)
 
@@ -552,8 +557,7 @@ def _lookup(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 2, 3)
 
     def run(at: Site) -> object:
-        wanted = scalar(arguments[0](at) if arguments[0] else 0.0, at)
-        area = _area_argument(arguments[1], at)
+        wanted, area = _searched(arguments, at)
         result = _area_argument(arguments[2], at) if len(arguments) > 2 else area
         values = _line(area, at)
         if isinstance(wanted, float):  # sorted or not, the last number not above it
@@ -570,8 +574,7 @@ def _vlookup(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 3, 4)
 
     def run(at: Site) -> object:
-        wanted = scalar(arguments[0](at) if arguments[0] else 0.0, at)
-        area = _area_argument(arguments[1], at)
+        wanted, area = _searched(arguments, at)
         number_of = _whole(arguments[2], at)
         near = True
         if len(arguments) > 3:

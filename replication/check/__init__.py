@@ -33,5 +33,5 @@ How six numbers become a verdict:
 8. `show` says it: the verdict, the first fault in order of calculation, what was taken for what.
 
 `diff`, with `matching`, `layout`, `references`, `following` and `diff_show`, compares two workbooks
-of any content and shares only `difference` with the above.
+of any content and shares only `difference` and `shown` with the above.
 """

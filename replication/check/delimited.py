@@ -15,6 +15,7 @@ from itertools import pairwise
 from pathlib import Path
 
 from replication.check.words import is_unit
+from replication.columns import csv_rows
 from replication.reading import place as named
 from spreadsheets.foreign import MAX_CELLS, MAX_FILE, MAX_TEXT, Book, Cell, Position, Value, read
 
@@ -140,16 +141,11 @@ def _rows(lines: Sequence[str], separator: str) -> Iterator[tuple[int, list[str]
     kept = ("" if line.lstrip().startswith(_COMMENTS) else line for line in lines)
     if separator == " ":
         kept = (line.expandtabs(1).strip() for line in kept)
-    reader = csv.reader(kept, delimiter=separator, skipinitialspace=True)
-    try:
-        for row in reader:
-            cells = [cell.strip() for cell in row]
-            while cells and not cells[-1]:
-                cells.pop()
-            if cells:
-                yield reader.line_num, cells
-    except csv.Error as error:
-        raise ValueError(f"line {reader.line_num} is not CSV: {error}") from error
+    for line, cells in csv_rows(kept, separator):
+        while cells and not cells[-1]:
+            cells.pop()
+        if cells:
+            yield line, cells
 
 
 def _is_row(cells: Sequence[str]) -> bool:

@@ -7,7 +7,7 @@ calculated. A value that is not stored is given by its formula and by the cells 
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from decimal import Decimal
 from pathlib import Path
 from unicodedata import normalize
@@ -16,7 +16,7 @@ from replication.check.difference import Difference, counted
 from replication.check.following import Reading, calculation_order
 from replication.check.layout import Layout
 from replication.check.references import Reference, words
-from spreadsheets.foreign import Book, Cell, Position, Value, read
+from spreadsheets.foreign import Book, Cell, Position, Value, read, without_zeros
 
 KINDS = ("setting", "added", "removed", "moved", "name", "formula", "value")
 """The kinds of differences that `diff` reports."""
@@ -28,8 +28,6 @@ FOLLOWS = "the values differ, as do "
 """How the explanation of a value begins that follows from another difference."""
 _DAYS = 1462
 """Days between 1 January 1900, as Excel counts, and 1904: the day 0 of the other date system."""
-_FEW = 3
-"""So few formulas may store 0 because they are calculated."""
 
 
 @dataclass(frozen=True)
@@ -76,21 +74,8 @@ def diff(
 
     `values_only`: formulas are compared only where one of the files stores no value.
     """
-    before, after = (_without_zeros(read(path)) for path in (a, b))
+    before, after = (without_zeros(read(path)) for path in (a, b))
     return Comparison(before, after, values_only, allowed or Tolerance())
-
-
-def _without_zeros(book: Book) -> Book:
-    """The book without the values of formulas, if 0 is stored for each of many; else unchanged."""
-    stored = [cell.value for _, cell in book.cells() if cell.formula]
-    if len(stored) <= _FEW or any(type(value) is not float or value != 0 for value in stored):
-        return book
-    note = "every formula stores 0, as some programs write it: none is calculated"
-    sheets = {
-        sheet: {at: c._replace(value=None) if c.formula else c for at, c in cells.items()}
-        for sheet, cells in book.sheets.items()
-    }
-    return replace(book, sheets=sheets, notes=(*book.notes, note))
 
 
 def not_stored(book: Book) -> list[Position]:

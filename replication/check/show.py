@@ -1,30 +1,25 @@
-"""The result of `check`: one JSON document, and the text, page and JUnit file of it."""
+"""The result of `check`: one JSON document, and the text and page of it."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import groupby
-from textwrap import fill
 from typing import Any
-from xml.etree import ElementTree as ET
 
 from reference.units import written
 from replication import page
 from replication.check.delimited import column_at, where
+from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, Difference, Examination
+from replication.check.shown import anchor, drawn, safe, whereabouts, wrapped
 from replication.check.table import Line, Table, address
-from replication.check.words import COLUMNS, INPUTS, count, is_unit, unit_text
+from replication.check.words import COLUMNS, INPUTS, is_unit, unit_text
 from replication.check.workbook import Check
-from replication.reading import printable
 from replication.text import aligned, quantity, with_unit
-from spreadsheets.evaluate import Evaluator, column_letters
+from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Book, Position
 
 _MOST = 12
 """How many entries of a list the text shows: with more of one kind, the first matter most."""
-_ROWS, _COLUMNS = 400, 40
-"""How many rows and columns of a sheet are drawn; beyond, only those near marked cells."""
-_NEAR = 3
-"""How far from a marked cell is near."""
 
 Record = Mapping[str, Any]
 
@@ -74,7 +69,7 @@ def _verdict(check: Check) -> str:
     causes, faults, exams = check.causes, check.faults, check.examinations
     if not faults:
         others = sum(d.kind == "other input" for d in check.differences)
-        inputs = f", with {count(others, 'other input')}" if others else ""
+        inputs = f", with {counted(others, 'other input')}" if others else ""
         extent = "" if any(exam.ends for exam in exams) else " as far as it goes"
         places = {place for exam in exams for place in exam.table.places}
         formulas = check.evaluator.formulas
@@ -89,10 +84,12 @@ def _verdict(check: Check) -> str:
             return f"Clean{extent}: the report's sheet{inputs}, row by row, to its digits."
         return f"Clean{extent}: the report's sheet{inputs}, cell by cell{numbers}."
     if not causes:
-        return f"The sheet is right, with {count(len(faults), 'number')} beside it not as printed."
-    sentence = f"{count(len(causes), 'difference')} from the report's sheet"
+        return (
+            f"The sheet is right, with {counted(len(faults), 'number')} beside it not as printed."
+        )
+    sentence = f"{counted(len(causes), 'difference')} from the report's sheet"
     if unmet := len(faults) - len(causes):
-        sentence += f", {count(unmet, 'printed number')} not met"
+        sentence += f", {counted(unmet, 'printed number')} not met"
     for exam in exams:
         if (depths := _wrong_depth(exam)) is not None:
             reached, right = (f"{depth * 1e6:.7g} um" for depth in depths)
@@ -180,17 +177,6 @@ def _unit(role: str, power: float) -> str:
 # ---- for a person at a terminal
 
 
-def safe(text: object, limit: int = 90) -> str:
-    r"""Text from a file made safe to show: one line, no control characters, not too long.
-
-    >>> safe("a\nb\x1b[31m"), safe("abcdef", 5), safe("abcde", 5)
-    ('a\\nb\\x1b[31m', 'ab...', 'abcde')
-    """
-    cut = str(text)[: limit + 1]
-    plain = printable(cut)
-    return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
-
-
 def contents(difference: Record) -> str:
     """Say what a cell holds and should hold.
 
@@ -233,7 +219,7 @@ def _lines(record: Record) -> Iterator[str]:
     for kind, title in aside.items():
         of_kind = [d for d in differences if d["kind"] == kind]
         lines = [
-            _wrapped(f"{_where(d)}: " * (d["count"] == 1) + safe(d["explanation"], 300), "  ")
+            wrapped(f"{whereabouts(d)}: " * (d["count"] == 1) + safe(d["explanation"], 300), "  ")
             for d in of_kind[:_MOST]
         ]
         yield from _list(title, lines, len(of_kind))
@@ -297,29 +283,10 @@ def _known_by(how: str, label: str) -> str:
 
 
 def _difference(difference: Record) -> Iterator[str]:
-    yield f"  {_where(difference)}, {difference['kind']}"
+    yield f"  {whereabouts(difference)}, {difference['kind']}"
     if line := contents(difference):
         yield f"    {line}"
-    yield _wrapped(safe(difference["explanation"], 400), "    ")
-
-
-def _place(difference: Record) -> str:
-    """The cell of a difference, or in a text file its line and column."""
-    if "where" in difference:
-        return safe(difference["where"])
-    return f"{safe(difference['sheet'], 40)}!{difference['cell']}"
-
-
-def _where(difference: Record) -> str:
-    if "where" in difference:
-        more = f" and {difference['count'] - 1} more" if difference["count"] > 1 else ""
-        return _place(difference) + more
-    more = f" ({difference['cells']})" if difference["count"] > 1 else ""
-    return f"{_place(difference)}{more}"
-
-
-def _wrapped(line: str, indent: str) -> str:
-    return fill(line, 100, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)
+    yield wrapped(safe(difference["explanation"], 400), "    ")
 
 
 def _list(title: str, lines: Sequence[str], total: int = 0) -> Iterator[str]:
@@ -343,7 +310,7 @@ def html(record: Record, differences: Sequence[Difference], evaluator: Evaluator
     pairs = zip(differences, record["differences"], strict=True)
     listed = sorted(pairs, key=lambda pair: _list_of(pair[1]))  # numbered in this order
     differences = [d for d, _ in listed]
-    numbered = [(n, shown, _anchor(d.place, sheets)) for n, (d, shown) in enumerate(listed, 1)]
+    numbered = [(n, shown, anchor(d.place, sheets)) for n, (d, shown) in enumerate(listed, 1)]
     parts = {
         **record,
         "head": page.head("replication.report", "replication.check"),
@@ -351,7 +318,9 @@ def html(record: Record, differences: Sequence[Difference], evaluator: Evaluator
             (*_LISTS[k], list(entries))
             for k, entries in groupby(numbered, key=lambda entry: _list_of(entry[1]))
         ],
-        "sheets": [_drawn(name, differences, evaluator) for name in sheets if name in marked],
+        "sheets": [
+            _drawn(name, sheets, differences, evaluator) for name in sheets if name in marked
+        ],
     }
     filters = {"safe": safe, "contents": contents, "unit": written, "quantity": quantity,
                "known_by": _known_by}  # fmt: skip
@@ -372,73 +341,10 @@ def _list_of(difference: Record) -> int:
     return 2 if kind in NO_FAULT else int(kind == "printed number")
 
 
-def _anchor(place: Position, sheets: Sequence[str]) -> str:
-    """The id of a drawn cell on the page; empty if its sheet is not drawn."""
-    return f"c{sheets.index(place[0])}-{address(place)}" if place[0] in sheets else ""
-
-
-def _drawn(name: str, differences: Sequence[Difference], evaluator: Evaluator) -> Record:
-    """A sheet with its differences marked: its name, column letters, and rows of cells."""
-    origins = {d.place: number for number, d in reversed(list(enumerate(differences, 1)))}
-    kinds = {place: d.kind.replace(" ", "-") for d in reversed(differences) for place in d.cells}
-    used = [p for p in (*evaluator.values, *origins) if p[0] == name]
-    marked = [p for p in origins if p[0] == name]
-    rows = _kept({p[1] for p in used}, {p[1] for p in marked}, _ROWS)
-    columns = _kept({p[2] for p in used}, {p[2] for p in marked}, _COLUMNS)
-    sheets = list(evaluator.book.sheets)
-
-    def cell(row: int, column: int) -> Record:
-        place = (name, row, column)
-        value, kind = evaluator.values.get(place, ""), kinds.get(place)
-        number = isinstance(value, float)
-        classes = ("right" * number, kind and f"marked {kind}", "origin" * (place in origins))
-        return {
-            "text": f"{value:.6g}" if number else safe(value, 40),
-            "formula": safe(evaluator.book[place].formula or "", 200),
-            "classes": " ".join(filter(None, classes)),
-            "number": origins.get(place),
-            "id": _anchor(place, sheets) if place in origins else "",
-        }
-
-    return {
-        "name": name,
-        "heads": [column_letters(column) for column in columns],
-        "rows": [(row, [cell(row, column) for column in columns]) for row in rows],
-    }
-
-
-def _kept(used: set[int], marked: set[int], most: int) -> list[int]:
-    """The used lines; if there are too many, the first of them and those near marked ones."""
-    near = {m + i for m in sorted(marked)[:20] for i in range(-_NEAR, _NEAR + 1)}
-    lines = sorted(used)
-    return lines if len(lines) <= most else sorted({*lines[: most // 4], *(near & used)})
-
-
-# ---- for a machine that runs tests
-
-
-def junit(record: Record, kinds: Sequence[str]) -> str:
-    """A test suite with one test for each kind: failed if it was found, skipped if not covered."""
-    failed = record["summary"].keys() - NO_FAULT
-    suite = ET.Element(
-        "testsuite", name=f"coldspray {safe(record['file'], 200)}", tests=str(len(kinds)),
-        failures=str(len(failed)), errors="0",
-        skipped=str(int("not calculated" in record["summary"])),
-    )  # fmt: skip
-    for kind in kinds:
-        case = ET.SubElement(suite, "testcase", classname="coldspray", name=kind)
-        lines = [
-            f"{_place(d)}: {safe(d['explanation'], 300)}"
-            for d in record["differences"]
-            if d["kind"] == kind
-        ]
-        if kind in failed:
-            message = f"{len(lines)} found, the first at {lines[0]}"
-            ET.SubElement(case, "failure", message=message).text = "\n".join(lines)
-        elif kind == "not calculated" and lines:
-            ET.SubElement(case, "skipped", message="\n".join(lines))
-        elif lines:
-            ET.SubElement(case, "system-out").text = "\n".join(lines)
-    ET.indent(suite)
-    declared = '<?xml version="1.0" encoding="UTF-8"?>\n'
-    return declared + ET.tostring(suite, encoding="unicode") + "\n"
+def _drawn(
+    name: str, sheets: Sequence[str], differences: Sequence[Difference], evaluator: Evaluator
+) -> Record:
+    """A sheet with its differences marked, with the values that were calculated."""
+    values, book = evaluator.values, evaluator.book
+    filled = {place[1:] for place in values if place[0] == name}
+    return drawn(name, sheets, differences, filled, lambda at: (values.get(at), book[at].formula))

@@ -869,8 +869,3 @@ def _step_of(roles: Mapping[str, Line]) -> float:
         if speed.values.get(j)
     ]
     return abs(median(steps)) if steps else 0.0
-
-
-def with_given(line: Line, name: str) -> Line:
-    """The line as the user named it."""
-    return replace(line, given=name)

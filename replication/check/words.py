@@ -9,13 +9,14 @@ import math
 import re
 import tomllib
 import unicodedata
-from collections.abc import Callable, Iterable, Sized
+from collections.abc import Callable, Sized
 from decimal import Decimal
 from fractions import Fraction
 from functools import cache
 from importlib import resources
 
 from reference.units import is_known, same_dimension, to_si
+from replication.check.difference import counted
 from replication.text import with_unit
 
 _WORDS: dict[str, dict[str, str]] = tomllib.loads(
@@ -129,15 +130,6 @@ def column_roles(head: str) -> frozenset[str]:
     )
 
 
-def is_end(head: str) -> bool:
-    """Whether a head says no more than which end of a step it belongs to.
-
-    >>> is_end("initial"), is_end("v initial")
-    (True, False)
-    """
-    return bool(_words("velocities", _symbol(head))) and not column_roles(head)
-
-
 @cache
 def input_roles(label: str, unit: str | None) -> frozenset[str]:
     """Return the inputs that a label may name, given the unit beside it, if any.
@@ -236,11 +228,6 @@ def title(role: str) -> str:
     return _WORDS["titles"].get(role) or f"the {role.replace('_', ' ')}"
 
 
-def titles(roles: Iterable[str]) -> str:
-    """Return the names of several columns or inputs, joined by "and"."""
-    return " and ".join(map(title, roles))
-
-
 def quantity(value: float, role: str) -> str:
     """Return a value in SI units as text, with its unit.
 
@@ -273,32 +260,6 @@ def power_of_ten(ratio: float) -> int | None:
     return round(power) if abs(power - round(power)) < 1e-9 else None
 
 
-def unit_power(unit: str | None) -> int | None:
-    """Return the power of ten between a unit and SI, or None if there is no unit or no such power.
-
-    >>> unit_power("um"), unit_power("ksi"), unit_power(None)
-    (-6, None, None)
-    """
-    return power_of_ten(float(to_si(unit))) if unit not in (None, "1") else None
-
-
-def between_units(power: int, role: str, surely: bool = False) -> bool:
-    """Whether two units of a quantity may differ by a power of ten.
-
-    Units mostly lie a thousand apart, centimetres and metres a hundred. Only a pressure has a unit
-    a tenth of another: dyn/cm² is 0.1 Pa. `surely` allows powers of a thousand only: a number ten
-    or a hundred times the report's may as well be another value on purpose.
-
-    >>> between_units(-2, "radius"), between_units(1, "radius"), between_units(-1, "flow_stress")
-    (True, False, True)
-    >>> between_units(-2, "radius", surely=True), between_units(-3, "radius", surely=True)
-    (False, True)
-    """
-    if surely:
-        return power % 3 == 0
-    return power not in (-1, 1) or _MEASURES[role] == "Pa"
-
-
 def times_too(power: int) -> str:
     """Say by which power of ten a number is too large or too small.
 
@@ -307,20 +268,6 @@ def times_too(power: int) -> str:
     """
     size = f"1e{abs(power)}" if abs(power) > 2 else str(10 ** abs(power))
     return f"{size} times too {'large' if power > 0 else 'small'}"
-
-
-def scaled(value: float, factor: Fraction) -> float:
-    """Return a number times a factor, rounded once from the decimal typed; inf beyond doubles.
-
-    >>> scaled(11.0, Fraction(1, 1_000_000)) == 11e-6
-    True
-    """
-    if factor == 1 or not math.isfinite(value):
-        return value
-    try:
-        return float(Fraction(repr(value)) * factor)
-    except OverflowError:
-        return math.copysign(math.inf, value)
 
 
 def digits_of(value: float) -> tuple[int, int]:
@@ -333,15 +280,6 @@ def digits_of(value: float) -> tuple[int, int]:
     return len(number.digits), int(number.exponent)
 
 
-def count(number: int, what: str) -> str:
-    """Return a number and the noun that it counts.
-
-    >>> count(1, "cell"), count(2, "cell")
-    ('1 cell', '2 cells')
-    """
-    return f"{number:,} {what}" if number == 1 else f"{number:,} {what}s"
-
-
 def share(some: Sized, of: Sized, what: str) -> str:
     """Say how many of some things, such as "2 of 4 formulas".
 
@@ -349,5 +287,5 @@ def share(some: Sized, of: Sized, what: str) -> str:
     ('2 of 4 formulas', 'all 2 formulas', '1 of 1 formula')
     """
     if len(some) == len(of) > 1:
-        return f"all {count(len(of), what)}"
-    return f"{len(some):,} of {count(len(of), what)}"
+        return f"all {counted(len(of), what)}"
+    return f"{len(some):,} of {counted(len(of), what)}"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from reference.units import same_dimension
 from replication.check.delimited import read_any
+from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, AnotherModelError, Difference, Examination
 from replication.check.judge import examine
 from replication.check.labels import cell_names, label_of
@@ -18,7 +19,6 @@ from replication.check.words import (
     COLUMNS,
     INPUTS,
     column_roles,
-    count,
     input_roles,
     is_unit,
     share,
@@ -26,15 +26,15 @@ from replication.check.words import (
 from replication.reading import place as named
 from replication.reading import quoted
 from spreadsheets.evaluate import Evaluator, Shape, parse, shape_key
-from spreadsheets.foreign import Book, Position
+from spreadsheets.foreign import Book, Position, without_zeros
 from spreadsheets.scalars import Area, Error
 
 _MOST_TABLES = 40
 """So many tables of one workbook are judged."""
 _FEW_READ = 100
 """So many cells behind an error are looked at for a text."""
-_FEW = 3
-"""Where all formulas store 0, so few wrong values are stale; more were never calculated."""
+_MOST_BLANK = 3
+"""So many blank cells are named that formulas read."""
 
 
 @dataclass(frozen=True)
@@ -215,7 +215,7 @@ def _faulty(exams: Sequence[Examination], place: Position) -> bool:
 
 def _evaluated(book: Book) -> tuple[Evaluator, dict[Position, str]]:
     """The book evaluated, with the typed texts that formulas take for numbers."""
-    evaluator = Evaluator(_without_zeros(book))
+    evaluator = Evaluator(without_zeros(book))
     read = {
         (a.sheet, a.top, a.left) for p in evaluator.formulas for a in evaluator.areas(p)
         if a.cells == 1
@@ -262,19 +262,6 @@ def _numbers_in(text: str) -> list[float]:
     if plain.count(",") == 1 and "." not in plain:
         candidates.append(plain.replace(",", "."))
     return [float(each) for each in candidates if number.fullmatch(each)]
-
-
-def _without_zeros(book: Book) -> Book:
-    """The book without stored values, if its program stored 0 for every formula; else unchanged."""
-    formulas = [cell for _, cell in book.cells() if cell.formula is not None]
-    if len(formulas) <= _FEW or not all(type(c.value) is float and c.value == 0 for c in formulas):
-        return book
-    note = "every formula stores 0, as some programs write it: none is calculated"
-    sheets = {
-        sheet: {at: c._replace(value=None) if c.formula else c for at, c in cells.items()}
-        for sheet, cells in book.sheets.items()
-    }
-    return replace(book, sheets=sheets, notes=(*book.notes, note))
 
 
 def _texts(
@@ -440,7 +427,7 @@ def _nothing(evaluator: Evaluator) -> str:
     for place in sorted(evaluator.unknown)[:1]:
         nothing += f"; {address(place, True)} is not computed: {evaluator.reasons[place]}"
     if first:
-        errors = f"errors in {count(len(wrong), 'formula')}, {address(first, True)} first"
+        errors = f"errors in {counted(len(wrong), 'formula')}, {address(first, True)} first"
         return f"{nothing}; {errors}: {values[first]}"
     if instead:
         return f"{nothing}: type a number there"
@@ -508,7 +495,7 @@ def _labelled_blanks(evaluator: Evaluator) -> list[Position]:
             label, unit, _ = label_of(place, evaluator)
             if label and input_roles(label, unit):
                 blank.append(place)
-    return blank[:_FEW]
+    return blank[:_MOST_BLANK]
 
 
 def _without_numbers(evaluator: Evaluator) -> Iterator[Difference]:

@@ -26,13 +26,15 @@ def run(options: argparse.Namespace) -> int:
     """Check a workbook and print the differences; status 1 if it is not the report's sheet."""
     check_files(options, options.file)
     from replication.check import show
-    from replication.check.examination import KINDS
+    from replication.check.examination import KINDS, NO_FAULT
+    from replication.check.shown import junit
     from replication.check.workbook import check
 
     checked = check(options.file, _mapping(options.map))
     record = show.check_record(checked)
     page = partial(show.html, record, checked.differences, checked.evaluator)
-    return put_differences(options, record, show.text, page, partial(show.junit, kinds=KINDS))
+    tests = partial(junit, kinds=KINDS, no_fault=NO_FAULT)
+    return put_differences(options, record, show.text, page, tests)
 
 
 def _mapping(texts: list[str]) -> dict[str, str]:

@@ -34,10 +34,11 @@ def run(options: argparse.Namespace) -> int:
     check_files(options, options.first, options.second)
     from replication.check import diff_show as show
     from replication.check.diff import KINDS, Tolerance, diff
+    from replication.check.shown import junit
 
     allowed = Tolerance(options.ulp, options.relative, options.digits)
     both = options.first, options.second
     compared = diff(*both, values_only=options.values_only, allowed=allowed)
     record = show.diff_record(compared)
     page = partial(show.html, record, compared.differences, compared.after)
-    return put_differences(options, record, show.text, page, partial(show.junit, kinds=KINDS))
+    return put_differences(options, record, show.text, page, partial(junit, kinds=KINDS))
