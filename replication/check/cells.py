@@ -562,7 +562,7 @@ def _spread(exam: Examination, line: Line, expected: float) -> float:
                 abs(exam.fitted.six.e) * 2 * brake.rounding(max(map(abs, brake.values.values())))
             )
         else:
-            spread += exam.fitted.slack * speed.largest_change
+            spread += 2 * exam.fitted.rough * speed.largest_change
     if role == "depth":
         spread += 2 * line.rounding(max(map(abs, line.values.values())))
     if role == "deceleration":

@@ -18,7 +18,7 @@ from replication.check.responses import Source, is_plain
 from replication.check.roles import Inputs
 from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run, start_of_row
 from replication.check.table import address
-from replication.check.taken import case_of, report_inputs
+from replication.check.taken import report_case, report_inputs
 from replication.check.words import input_roles, times_too, title
 from spreadsheets.foreign import Position
 
@@ -252,7 +252,7 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
         for a in ours for b in ours if a != b
     )  # fmt: skip
     faults = [d for d in exam.differences if d.kind not in NO_FAULT or d.kind == "other input"]
-    is_report = stop == 1.0 and case_of(six, max(1e-6, 10 * exam.fitted.slack)) is not None
+    is_report = stop == 1.0 and report_case(six, exam.fitted) is not None
     column = end_of_row(table)[0]
     exam.cut_short = is_report and not faults and not prepared and 2 * table.steps < steps
     if is_report and not faults and not prepared and steps // 2 <= table.steps < steps - 1:

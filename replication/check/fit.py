@@ -14,6 +14,7 @@ from typing import NamedTuple
 from replication.check.six import (
     EXACT,
     REPORT,
+    ROUNDED,
     VARIANTS,
     Six,
     State,
@@ -126,9 +127,11 @@ class Fit:
     are negative. `ways` are the ways in which columns are filled, None for a formula that follows
     none; `brakes` is the column in which the force is seen. `force` is missing if there is none,
     or if there are no formulas; so is then `probe`. `time_adds` and `depth_adds` say whether the
-    formula of a time or a depth adds to the one before, or is a sum by itself. `slack` is the
-    relative uncertainty of the six. Of numbers without formulas `bounded` says whether the area
-    stays the same beyond D/2, and `digits` is the relative uncertainty of the numbers as typed.
+    formula of a time or a depth adds to the one before, or is a sum by itself. `errors` are the
+    relative errors of the six that digits admit, infinite for one that the rows do not tell, and
+    `time_error` is that of the time. Of
+    numbers without formulas `bounded` says whether the area stays the same beyond D/2, `digits` is
+    the relative uncertainty of the numbers as typed, `rough` that of the decelerations they show.
     """
 
     six: Six
@@ -139,11 +142,13 @@ class Fit:
     force: Force | None = None
     centered: bool = False
     probe: Probe | None = None
-    slack: float = EXACT
+    errors: Six = ROUNDED
+    time_error: float = EXACT
     time_adds: bool = False
     depth_adds: bool = True
     bounded: bool = True
     digits: float = EXACT
+    rough: float = EXACT
 
     @property
     def odd(self) -> list[Variant | None]:

@@ -25,7 +25,7 @@ from replication.check.six import (
 )
 from replication.check.table import Line, Table, address
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
-from replication.check.units import Equation, Quantity, equations, mended, state_units
+from replication.check.units import Equation, Quantity, equations, right_units, state_units
 from replication.check.words import times_too, title, unit_text
 from spreadsheets.foreign import Position
 
@@ -39,8 +39,6 @@ _LEAST_RATIO = 0.02
 """The target's density over the particle's is larger: magnesium over osmium is 0.08."""
 _MOST_POWER = 300.0
 """Doubles reach to 1e308."""
-_VAGUE = 30
-"""Numbers without formulas may miss an equation by so many times their uncertainty."""
 
 
 def examine(
@@ -61,10 +59,8 @@ def examine(
     if _is_half(found, inputs):
         _take_for_radius(inputs)
         found = equations(table, exam.fitted, inputs)
-    slack = max(CLOSE, exam.fitted.slack)
-    loose = max(slack, _vagueness(exam, slack))
-    broken, of_units = _without_unit(exam, inputs, found, slack)
-    result, stated = mended(of_units, inputs, loose), inputs.powers
+    broken, of_units = _without_unit(inputs, found)
+    result, stated = right_units(of_units, inputs), inputs.powers
     if result is not None:
         inputs.powers = result[0]
     exam.units = {role: inputs.powers.get(("column", role), 0.0) for role in table.lines}
@@ -73,13 +69,13 @@ def examine(
     speeds: list[Item] = [("column", role) for role in ("velocity_initial", "velocity_final")]
     speeds += [inputs.cells["velocity"].item] if "velocity" in inputs.cells else []
     exam.firm_speed = any(item in inputs.stated for item in speeds)
-    refuse_other_model(exam, inputs, found, slack)
+    refuse_other_model(exam, inputs, found)
     take_inputs(exam, inputs)
     typed_constants(exam, inputs, [place for place in typed if place not in exam.read], broken)
     typed_stops(exam, inputs)
     _broken_equations(exam, inputs, found, broken)
     if result is None:
-        _not_converted(exam, inputs, of_units, slack)
+        _not_converted(exam, inputs, of_units)
     else:
         for item in result[1]:
             _wrong_unit(exam, inputs, item, stated.get(item, 0.0))
@@ -158,14 +154,13 @@ def _without_drag(exam: Examination) -> None:
     """Report numbers without formulas whose deceleration does not depend on the velocity.
 
     G D^3 = 3 rho_t/rho_p, whatever the units, as c and e are the same step. No two solids have a
-    ratio of densities below 1/50; it is reported only where the digits would show twice that.
+    ratio of densities below 1/50, as far as the digits tell.
     """
-    six, slack = exam.fitted.six, exam.fitted.slack
+    six, errors = exam.fitted.six, exam.fitted.errors
     if exam.fitted.probe is not None or not (six.H > 0 and six.D > 0 and six.c and six.V > 0):
         return
-    drag = 3 / six.D**3 * six.c / abs(six.e)
-    shown = 2 * _LEAST_RATIO * drag * six.V**2 > 100 * slack * six.H
-    if shown and abs(six.G) < _LEAST_RATIO * drag:
+    drag = 3 / (six.D * (1 + errors.D)) ** 3 * six.c / abs(six.e)
+    if abs(six.G) * (1 + errors.G) < _LEAST_RATIO * drag:
         text = (
             "no drag: the deceleration does not depend on the velocity; the force lacks the drag, "
         )
@@ -235,13 +230,8 @@ def _slips(name: str, inputs: Inputs) -> list[tuple[float, str]]:
     return slips
 
 
-def _vagueness(exam: Examination, slack: float) -> float:
-    """How far an equation between numbers without formulas may be off: a unit is ten times more."""
-    return max(_VAGUE * slack, math.log10(1.01)) if exam.fitted.probe is None else 0.0
-
-
 def _without_unit(
-    exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
+    inputs: Inputs, found: Sequence[Equation]
 ) -> tuple[dict[str, str], list[Equation]]:
     """The equations that no unit can mend, each by its name with the slip that it shows.
 
@@ -249,22 +239,23 @@ def _without_unit(
     """
     broken: dict[str, str] = {}
     mendable: list[Equation] = []
-    vague = _vagueness(exam, slack)
     for eq in found:
         rest = eq.residual(inputs.powers)
         free = [item for item in eq.terms if item not in inputs.stated]
         odd = any(inputs.powers.get(item, 0.0) % 1 for item in eq.terms if item in inputs.stated)
         if odd and abs(rest) < _FEW_DIGITS:
             continue  # converted by a factor of a few digits
-        near = max(slack, vague)
-        by_unit = any(unit_power(-rest / eq.terms[item], near) is not None for item in free)
-        if abs(rest - round(rest)) <= slack + 2 * CLOSE or abs(rest) < vague or by_unit:
+        by_unit = any(
+            unit_power(-rest / eq.terms[item], eq.slack, eq.ratio.error) is not None
+            for item in free
+        )
+        if abs(rest - round(rest)) <= eq.slack + 2 * CLOSE or by_unit:
             mendable.append(eq)
             continue
         broken[eq.name] = ""
         for ratio, slip in _slips(eq.name, inputs):
             off = rest - math.log10(ratio)
-            if not broken[eq.name] and abs(off - round(off)) <= max(slack, 1e-8):
+            if not broken[eq.name] and abs(off - round(off)) <= max(eq.slack, 1e-8):
                 broken[eq.name] = slip
                 mendable.append(replace(eq, ratio=eq.ratio * Quantity(-math.log10(ratio))))
     return broken, mendable
@@ -499,13 +490,11 @@ _FOLLOWS = {"c = e": {"c = dt", "e = dt"}, "t = c": {"t = dt", "c = dt"}}
 """Equations that follow from two others, which tell the column that is wrong."""
 
 
-def _not_converted(
-    exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
-) -> None:
+def _not_converted(exam: Examination, inputs: Inputs, found: Sequence[Equation]) -> None:
     """Report equations that a power of ten breaks, where no single statement mends all of them."""
     accused = {cell for d in exam.differences for cell in d.cells}
     rests = {eq.name: eq.residual(inputs.powers) for eq in found}
-    wrong = [eq for eq in found if abs(rests[eq.name]) >= _VAGUE * slack]
+    wrong = [eq for eq in found if not eq.holds(inputs.powers)]
     of_cell = any(eq.name in ("c = dt", "e = dt", "t = dt") for eq in wrong)
     for eq in wrong:
         rest = rests[eq.name]

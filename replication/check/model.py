@@ -26,9 +26,7 @@ _FEW_ROWS = 6
 """Of fewer rows without formulas it cannot be said that they follow another model."""
 
 
-def refuse_other_model(
-    exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
-) -> None:
+def refuse_other_model(exam: Examination, inputs: Inputs, found: Sequence[Equation]) -> None:
     """Raise AnotherModelError if the formulas are not the report's, and the inputs are not either.
 
     Formulas that are not the report's are a fault if the rest of the table is: if two of the
@@ -45,14 +43,14 @@ def refuse_other_model(
             )
     _refuse_zero(inputs)
     if fitted.probe is None:
-        if not (_rows_agree(exam) and _steps_agree(found, inputs, slack)):
+        if not (_rows_agree(exam) and _steps_agree(found, inputs)):
             raise AnotherModelError(_sentence(exam, "deceleration"))
         return
     wrong = [role for role, way in fitted.ways.items() if way is not REPORT[role]]
     force = fitted.ways.get("deceleration", REPORT["deceleration"])
     if not wrong or force is REPORT["deceleration"]:
         return
-    hold = {eq.name for eq in found if abs(eq.residual(inputs.powers)) < slack}
+    hold = {eq.name for eq in found if eq.holds(inputs.powers)}
     strong = len(hold & {"D", "mass", "diameter", "G", "H", "resistance"})
     if strong >= (1 if fitted.centered else 2) or ("D" in hold and force is None):
         return  # the contact area is that of the sphere whose radius a cell holds
@@ -159,10 +157,10 @@ def _sentence(exam: Examination, role: str) -> str:
     return f"{found}, but the number in {address(place, True)} {what}"
 
 
-def _steps_agree(found: Sequence[Equation], inputs: Inputs, slack: float) -> bool:
+def _steps_agree(found: Sequence[Equation], inputs: Inputs) -> bool:
     """Whether depth and velocity of a table of numbers change by the same step, in some unit."""
-    rests = [eq.residual(inputs.powers) for eq in found if eq.name == "c = e"]
-    return all(abs(rest - round(rest)) < max(100 * slack, 1e-3) for rest in rests)
+    rests = [(eq.residual(inputs.powers), eq.slack) for eq in found if eq.name == "c = e"]
+    return all(abs(rest - round(rest)) < slack for rest, slack in rests)
 
 
 def _rows_agree(exam: Examination) -> bool:

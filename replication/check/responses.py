@@ -221,10 +221,15 @@ def _all_numbers(table: Table, fitted: Fit, cells: Cells, literals: Literals) ->
     return result
 
 
-def unit_power(power: float, slack: float) -> float | None:
-    """The power of ten between two units, or that of an unusual unit; None if it is neither."""
+def unit_power(power: float, slack: float, error: float = 0.0) -> float | None:
+    """The power of ten between two units, or that of an unusual unit; None if it is neither.
+
+    It may be off by `slack` from a power of ten. Unusual units are many, so that one is taken only
+    where a power agrees with it up to the error of the digits.
+    """
     near = round(power)
     if abs(power - near) <= slack + 2 * CLOSE:
         return float(near)
-    unusual = any(abs((power - u) - round(power - u)) < 1e-6 for u in _UNUSUAL)
+    close = max(1e-6, error)
+    unusual = any(abs((power - u) - round(power - u)) < close for u in _UNUSUAL)
     return power if unusual else None

@@ -14,7 +14,7 @@ from replication.check.examination import NO_FAULT, Difference, Examination, nea
 from replication.check.labels import label_of
 from replication.check.responses import is_plain
 from replication.check.table import LEAST, address
-from replication.check.taken import case_of, report_inputs
+from replication.check.taken import report_case, report_inputs
 from replication.check.words import number_in, power_of_ten, result_of, times_too, title, unit_text
 from replication.text import with_unit
 from spreadsheets.evaluate import Evaluator, written
@@ -301,7 +301,7 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
     A typed number belongs to the only table, or to that whose beta its label names.
     """
     for exam in exams:
-        case = case_of(exam.intended, max(1e-9, 10 * exam.fitted.slack))
+        case = report_case(exam.intended, exam.fitted)
         if case is None:
             continue
         assert exam.intended is not None

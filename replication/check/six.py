@@ -110,6 +110,10 @@ class Six(NamedTuple):
         return (self.G * u * u + self.H) * area
 
 
+ROUNDED = Six(EXACT, EXACT, EXACT, EXACT, EXACT, EXACT)
+"""The relative errors of six numbers that formulas give."""
+
+
 class Step(NamedTuple):
     """One row of a run."""
 

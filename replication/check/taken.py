@@ -6,6 +6,7 @@ from functools import cache
 
 from reference.ledger import claims_of_case, load
 from replication.check.examination import AnotherModelError, Examination, near
+from replication.check.fit import Fit
 from replication.check.roles import Input, Inputs
 from replication.check.six import Six, start_of_row
 from replication.check.words import INPUTS, digits_of, quantity, times_too, title
@@ -16,6 +17,10 @@ _NO_BETA = 1e3
 """No beta is so large; a flow stress in Pa is larger."""
 _DIGITS = 3
 """A mass is typed with so many digits at least."""
+_SAME = 1e-6
+"""Relative difference up to which a number that was solved is one that was typed."""
+_FEW_DIGITS = 0.05
+"""Rows whose digits admit larger errors do not tell by themselves which case they belong to."""
 _ALIKE = 3
 """So many other inputs must be the report's where one is called a thousand times too large."""
 
@@ -49,9 +54,15 @@ def report_six(resistance: float, step: float) -> Six:
     return Six(G, H, report["diameter"][0], step, step, report["velocity"][0])
 
 
-def case_of(six: Six | None, close: float) -> str | None:
-    """The report's case that six numbers in SI units belong to, whatever the step; None if none."""
+def report_case(six: Six | None, fitted: Fit) -> str | None:
+    """The report's case that six numbers in SI units belong to, whatever the step; None if none.
+
+    They may differ by what the digits of the rows admit; what these do not tell is no case.
+    """
     if six is None:
+        return None
+    close = max(_SAME, *fitted.errors)
+    if close > _FEW_DIGITS:
         return None
     for beta, resistance in zip((5, 3), report_inputs()["resistance"], strict=True):
         wanted = report_six(resistance, six.c)._replace(e=six.e)
@@ -115,9 +126,9 @@ def six_in_si(exam: Examination) -> Six:
 def _as_in_report(exam: Examination, six: Six) -> None:
     """Take the report's inputs for those that no cell holds, if the rows agree with one case."""
     report, inputs = report_inputs(), exam.inputs
-    close = max(1e-6, 30 * exam.fitted.slack)
-    if (case := case_of(six, close)) is None:
+    if (case := report_case(six, exam.fitted)) is None:
         return
+    close = max(_SAME, exam.fitted.errors.c)
     resistance = report["resistance"][0 if case == "beta-5" else 1]
     values = {role: report[role][0] for role in (
         "velocity", "radius", "particle_density", "target_density")}  # fmt: skip
@@ -151,8 +162,10 @@ def _solve_rest(exam: Examination, six: Six) -> None:
     else:
         density, target = (report_inputs()[role][0] for role in (
             "particle_density", "target_density"))  # fmt: skip
-        close = max(1e-6, 10 * exam.fitted.slack)
-        if not math.isclose(2 * six.G * volume * density / math.pi, target, rel_tol=close):
+        errors = exam.fitted.errors
+        close = max(_SAME, errors.G + 3 * errors.D)
+        own = 2 * six.G * volume * density / math.pi
+        if close > _FEW_DIGITS or not math.isclose(own, target, rel_tol=close):
             return
         M = volume * density
     solved = {

@@ -17,32 +17,43 @@ from replication.check.six import start_of_row
 from replication.check.table import Table
 from replication.check.words import COLUMNS, INPUTS
 
+_ALIKE = 1e-9
+"""The decimal logarithm of a ratio up to which what formulas give is equal."""
+_VAGUE = math.log10(1.01)
+"""Of numbers without formulas: inputs that are typed beside them may have few digits."""
 _MOST_CHANGES = 6
 """So many units that nobody states may have to be found together."""
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """A positive number times powers of units that may be unknown: the number's logarithm."""
+    """A positive number times powers of units that may be unknown: the number's logarithm.
+
+    `error` is how far that may be off by the digits of what it follows from.
+    """
 
     log: float
     units: Mapping[Item, float] = field(default_factory=dict)
+    error: float = 0.0
 
     def __mul__(self, other: "Quantity") -> "Quantity":
         items = self.units.keys() | other.units.keys()
         powers = {i: self.units.get(i, 0.0) + other.units.get(i, 0.0) for i in items}
-        return Quantity(self.log + other.log, {i: n for i, n in powers.items() if n})
+        error = self.error + other.error
+        return Quantity(self.log + other.log, {i: n for i, n in powers.items() if n}, error)
 
     def __pow__(self, power: float) -> "Quantity":
-        return Quantity(self.log * power, {i: n * power for i, n in self.units.items()})
+        powers = {i: n * power for i, n in self.units.items()}
+        return Quantity(self.log * power, powers, self.error * abs(power))
 
     def __truediv__(self, other: "Quantity") -> "Quantity":
         return self * other**-1
 
 
-def _number(value: float | None) -> Quantity:
-    """A number without a unit; its logarithm is NaN if it has none."""
-    return Quantity(math.log10(value) if value is not None and 0 < value < math.inf else math.nan)
+def _number(value: float | None, error: float = 0.0) -> Quantity:
+    """A number without a unit and its relative error; its logarithm is NaN if it has none."""
+    log = math.log10(value) if value is not None and 0 < value < math.inf else math.nan
+    return Quantity(log, error=math.log10(1 + error))
 
 
 def _unit(item: Item) -> Quantity:
@@ -56,10 +67,14 @@ def _of(source: Source) -> Quantity:
 
 @dataclass(frozen=True)
 class Equation:
-    """Two sides that should be equal: the one over the other, with the units that it contains."""
+    """Two sides that should be equal: the one over the other, with the units that it contains.
+
+    `slack` is how far the logarithm of their ratio may be from 0, or from a power of ten.
+    """
 
     name: str
     ratio: Quantity
+    slack: float
 
     @property
     def terms(self) -> Mapping[Item, float]:
@@ -70,17 +85,22 @@ class Equation:
         """The logarithm of the ratio, which is 0 if the equation holds; `powers` are the units'."""
         return self.ratio.log + sum(n * powers.get(i, 0.0) for i, n in self.terms.items())
 
+    def holds(self, powers: Mapping[Item, float]) -> bool:
+        """Whether both sides are equal, as far as their digits tell."""
+        return abs(self.residual(powers)) < self.slack
+
 
 def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
     """The equations between the six numbers and the cells that can be written down."""
-    six = fitted.six
+    six, errors = fitted.six, fitted.errors
     X, W, A, T = (
         _unit(("column", role))
         for role in ("depth", start_of_row(table)[0], "deceleration", "time")
     )
     if "deceleration" not in table.lines:
         A = W**2 / X
-    c, e, t = _number(six.c) * X / W, _number(abs(six.e)) * W / A, _number(fitted.time) * T
+    c, e = _number(six.c, errors.c) * X / W, _number(abs(six.e), errors.e) * W / A
+    t = _number(fitted.time, fitted.time_error) * T
     sides = {"c = e": (c, e)} if "deceleration" in table.lines else {}
     if {"velocity_initial", "velocity_final"} <= table.lines.keys():
         ends = (_unit(("column", role)) for role in ("velocity_initial", "velocity_final"))
@@ -88,11 +108,14 @@ def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
     sides |= _of_step(table, inputs, c, e, t)
     velocity = inputs.cells.get("velocity")
     if velocity is not None and velocity.powers:
-        sides["V"] = (_number(six.V) * W, _of(velocity))
-    G, H = _number(six.G) * A / (W * X) ** 2, _number(six.H) * A / X**2
-    sides |= _of_force(inputs, _number(six.D) * X, G, H)
-    found = [Equation(name, left / right) for name, (left, right) in sides.items()]
-    return [eq for eq in found if math.isfinite(eq.ratio.log)]
+        sides["V"] = (_number(six.V, errors.V) * W, _of(velocity))
+    G = _number(six.G, errors.G) * A / (W * X) ** 2
+    H = _number(six.H, errors.H) * A / X**2
+    sides |= _of_force(inputs, _number(six.D, errors.D) * X, G, H)
+    least = _ALIKE if fitted.probe is not None else _VAGUE
+    ratios = {name: left / right for name, (left, right) in sides.items()}
+    found = [Equation(name, ratio, max(least, ratio.error)) for name, ratio in ratios.items()]
+    return [eq for eq in found if math.isfinite(eq.ratio.log + eq.slack)]
 
 
 _Sides = dict[str, tuple[Quantity, Quantity]]
@@ -176,8 +199,8 @@ def state_units(table: Table, inputs: Inputs) -> None:
             inputs.stated.pop(source.item, None)
 
 
-def mended(
-    found: Sequence[Equation], inputs: Inputs, slack: float
+def right_units(
+    found: Sequence[Equation], inputs: Inputs
 ) -> tuple[dict[Item, float], list[Item]] | None:
     """Units by which all equations hold, and the stated ones that had to be changed.
 
@@ -187,12 +210,12 @@ def mended(
     items = list(dict.fromkeys(item for eq in found for item in eq.terms))
     texts = {item for item in items if item in inputs.stated and item in inputs.powers}
     free = [item for item in items if item not in inputs.stated]
-    if (result := _solve(found, inputs.powers, free, slack)) is not None:
+    if (result := _solve(found, inputs.powers, free)) is not None:
         return result, []
     mends: list[tuple[bool, bool, int, Item, dict[Item, float]]] = []
     for item in items:
         if item in texts:
-            changed = _solve(found, inputs.powers, [*free, item], slack)
+            changed = _solve(found, inputs.powers, [*free, item])
             if changed is not None:
                 power = round(changed.get(item, 0.0) - inputs.powers.get(item, 0.0))
                 # What is not stated surely is changed first; units mostly lie a thousand apart. A
@@ -206,19 +229,19 @@ def mended(
 
 
 def _solve(
-    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], slack: float
+    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item]
 ) -> dict[Item, float] | None:
     """Change as few free units as possible, by powers of ten, so that all equations hold."""
-    left, later = _set_apart(found, powers, free, slack)
+    left, later = _set_apart(found, powers, free)
     for most in range(_MOST_CHANGES):
-        result = _changed(left, dict(powers), list(free), most, slack)
+        result = _changed(left, dict(powers), list(free), most)
         if result is not None:
-            holds = all(_mend_own(eq, own, result, slack) for eq, own in reversed(later))
+            holds = all(_mend_own(eq, own, result) for eq, own in reversed(later))
             if holds:
                 return result
             break
     for most in range(_MOST_CHANGES):  # the units set apart do not fit: all equations at once
-        if (result := _changed(found, dict(powers), list(free), most, slack)) is not None:
+        if (result := _changed(found, dict(powers), list(free), most)) is not None:
             return result
     return None
 
@@ -227,16 +250,22 @@ _Own = list[tuple[Equation, list[Item]]]
 
 
 def _set_apart(
-    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], slack: float
+    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item]
 ) -> tuple[list[Equation], _Own]:
-    """Set equations apart that have a free unit of their own: at the end it makes them hold."""
+    """Set equations apart that have a free unit of their own: at the end it makes them hold.
+
+    One that stands there squared or cubed does not: its powers of ten are even, or threes.
+    """
     left, later = list(found), _Own()
-    while any(abs(eq.residual(powers)) >= slack for eq in left):
+    while any(not eq.holds(powers) for eq in left):
         counts: dict[Item, int] = {}
         for eq in left:
             for item in eq.terms:
                 counts[item] = counts.get(item, 0) + 1
-        alone = ((eq, [i for i in eq.terms if i in free and counts[i] == 1]) for eq in left)
+        alone = (
+            (eq, [i for i, n in eq.terms.items() if i in free and counts[i] == 1 and abs(n) == 1])
+            for eq in left
+        )
         entry = next(((eq, own) for eq, own in alone if own), None)
         if entry is None:
             break
@@ -245,13 +274,13 @@ def _set_apart(
     return left, later
 
 
-def _mend_own(eq: Equation, own: Sequence[Item], result: dict[Item, float], slack: float) -> bool:
+def _mend_own(eq: Equation, own: Sequence[Item], result: dict[Item, float]) -> bool:
     """Make an equation hold by one of its own units; whether that is possible."""
-    rest = eq.residual(result)
-    if abs(rest) < slack:
+    if eq.holds(result):
         return True
+    rest = eq.residual(result)
     for item in own:
-        power = unit_power(-rest / eq.terms[item], slack)
+        power = unit_power(-rest / eq.terms[item], eq.slack, eq.ratio.error)
         if power is not None:
             result[item] = result.get(item, 0.0) + power
             return True
@@ -259,10 +288,10 @@ def _mend_own(eq: Equation, own: Sequence[Item], result: dict[Item, float], slac
 
 
 def _changed(
-    left: Sequence[Equation], powers: dict[Item, float], free: list[Item], most: int, slack: float
+    left: Sequence[Equation], powers: dict[Item, float], free: list[Item], most: int
 ) -> dict[Item, float] | None:
     """Change up to `most` free units, so that the equations hold; None if that cannot be done."""
-    wrong = [eq for eq in left if abs(eq.residual(powers)) >= slack]
+    wrong = [eq for eq in left if not eq.holds(powers)]
     if not wrong or not most:
         return None if wrong else powers
     # An equation with a single free unit leaves no choice, so that it comes first.
@@ -270,9 +299,9 @@ def _changed(
     rest = broken.residual(powers)
     for item in free:
         power = -rest / broken.terms[item] if item in broken.terms else 0.0
-        if round(power) and abs(power - round(power)) <= slack + 2 * CLOSE:
+        if round(power) and abs(power - round(power)) <= broken.slack + 2 * CLOSE:
             changed = {**powers, item: powers.get(item, 0.0) + round(power)}
             others = [i for i in free if i != item]
-            if (result := _changed(left, changed, others, most - 1, slack)) is not None:
+            if (result := _changed(left, changed, others, most - 1)) is not None:
                 return result
     return None
