@@ -275,7 +275,7 @@ def _stop_velocity(
     own = labelled is not None and (labelled.place is None or exam.on_own_sheets(labelled.place))
     if last < 1.0 <= before and exam.firm_speed and not own:
         return 1.0
-    if labelled is not None and exam.firm_speed:
+    if labelled is not None and (exam.firm_speed or last < labelled.si <= before):
         return labelled.si
     if last < 1.0 <= before:
         return 1.0

@@ -10,11 +10,10 @@ from replication.check.constants import typed_constants, typed_stops
 from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import AnotherModelError, Examination, near
 from replication.check.excerpt import judge_excerpt
-from replication.check.fit import is_part
+from replication.check.fit import Fit, is_part
 from replication.check.model import blank_inputs, refuse_other_model
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
-from replication.check.rows import fit_table
 from replication.check.six import (
     REPORT,
     VARIANTS,
@@ -42,7 +41,7 @@ _MOST_POWER = 300.0
 
 
 def examine(
-    table: Table, names: Mapping[Position, str], given: Mapping[str, Position],
+    table: Table, fitted: Fit, names: Mapping[Position, str], given: Mapping[str, Position],
     idle: Sequence[Position], typed: Sequence[Position],
 ) -> Examination:  # fmt: skip
     """Judge a table. Raises AnotherModelError if it does not follow the report's.
@@ -50,7 +49,7 @@ def examine(
     `names` are the names of cells, `given` the cells of inputs that the user named, `idle` numbers
     that no table reads, `typed` all typed numbers beside the table.
     """
-    exam = Examination(table, fit_table(table))
+    exam = Examination(table, fitted)
     inputs = recognize(table, exam.fitted, given, names, idle)
     exam.read = frozenset(s.cell for s in inputs.sources if s.cell)
     state_units(table, inputs)

@@ -764,12 +764,13 @@ def _brake(
             e, share = _share(terms, 1e-3) if not line.computed else (e, 0.0)
         if share <= 0.5:
             continue
-        fits = power_of_ten(abs(e) / c) is not None or (
-            not line.computed and abs(math.log10(abs(e) / c) - round(math.log10(abs(e) / c))) < 0.01
-        )
+        power = math.log10(abs(e) / c)
+        off = abs(power - round(power))
+        fits = power_of_ten(abs(e) / c) is not None or (not line.computed and off < 0.01)
         named = "deceleration" in line.roles
         other = bool(line.roles) and not named
-        ranked.append((not fits, not named, other, not _reads(speed, line), line.number, line))
+        reads = _reads(speed, line)
+        ranked.append((not fits, not named, other, round(off, 3), not reads, line.number, line))
     ranked.sort(key=lambda entry: entry[:-1])
     if strict:
         return ranked[0][-1] if ranked and not ranked[0][0] else None

@@ -9,10 +9,12 @@ from reference.units import same_dimension
 from replication.check.delimited import read_any
 from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, AnotherModelError, Difference, Examination
+from replication.check.idle import idle_inputs, numbers_apart, typed_beside, unused_formulas
 from replication.check.judge import examine
 from replication.check.labels import cell_names, label_of
 from replication.check.repair import Slipped, Still, mended, moving, slipped, standing
 from replication.check.results import PrintedCell, judge_results, printed_cells
+from replication.check.rows import fit_table
 from replication.check.stale import stale
 from replication.check.table import LEAST, Line, Table, address, runs, tables
 from replication.check.words import (
@@ -93,20 +95,15 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
     if not found:
         raise ValueError(_nothing(evaluator))
     names = cell_names(evaluator)
-    idle = _idle(evaluator, found)
+    fits = [(table, fit_table(table)) for table in found]
+    idle = numbers_apart(evaluator, fits)
     exams: list[Examination] = []
     others: list[str] = []
-    for table in found:
+    for table, fitted in fits:
+        own = idle_inputs(idle, table, names)
+        typed = typed_beside(idle, table) + unused_formulas(idle, table)
         try:
-            exams.append(
-                examine(
-                    table,
-                    names,
-                    cells,
-                    _beside(table, idle, found),
-                    _typed_numbers(table, found) + _unused(table, idle),
-                )
-            )
+            exams.append(examine(table, fitted, names, cells, own, typed))
         except AnotherModelError as error:
             others.append(str(error))
     if not exams:
@@ -276,62 +273,6 @@ def _texts(
             yield Difference(
                 "typed number", (place,), value, repr(text), says, exams[0].rank(place)
             )
-
-
-# ---- what the tables do not read
-
-
-def _idle(evaluator: Evaluator, found: Sequence[Table]) -> list[Position]:
-    """The numbers that no table holds or reads: of inputs that are not used, perhaps."""
-    lined = {p for table in found for p in table.places}
-    for table in found:
-        lined |= {line.place(i) for line in table.helpers for i in line.values}
-    read: set[Position] = set()
-    waiting = [p for p in lined if p in evaluator.formulas]
-    seen: set[Position] = set()
-    while waiting:
-        place = waiting.pop()
-        if place in seen:
-            continue
-        seen.add(place)
-        for area in evaluator.areas(place):
-            for cell in area.places() if area.cells <= 64 else ():
-                read.add(cell)
-                if cell in evaluator.formulas and cell not in lined:
-                    waiting.append(cell)
-    return [
-        place
-        for place, value in evaluator.values.items()
-        if type(value) is float and place not in lined and place not in read
-    ][:5_000]
-
-
-def _beside(table: Table, idle: Sequence[Position], found: Sequence[Table]) -> list[Position]:
-    """The idle cells that may belong to a table: typed ones, not on the sheet of another table."""
-    formulas = table.evaluator.formulas
-    own = [p for p in idle if p not in formulas]
-    if len(found) > 1:
-        others = {other.sheet for other in found} - {table.sheet}
-        own = [p for p in own if p[0] not in others]
-    return own[:500]
-
-
-def _unused(table: Table, idle: Sequence[Position]) -> list[Position]:
-    """The formulas on the sheet of a table that no table reads: of a mass, say."""
-    return [p for p in idle if p in table.evaluator.formulas and p[0] == table.sheet][:100]
-
-
-def _typed_numbers(table: Table, found: Sequence[Table]) -> list[Position]:
-    """The typed numbers on the sheet of a table that stand in no table."""
-    lined = {p for other in found for p in other.places}
-    for other in found:
-        lined |= {line.place(i) for line in other.helpers for i in line.values}
-    evaluator = table.evaluator
-    return [
-        p for p, value in evaluator.values.items()
-        if type(value) is float and p[0] == table.sheet and p not in lined
-        and p not in evaluator.formulas
-    ][:500]  # fmt: skip
 
 
 # ---- the user's --map, and the message where no table is found
