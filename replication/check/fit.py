@@ -128,8 +128,7 @@ class Fit:
     none; `brakes` is the column in which the force is seen. `force` is missing if there is none,
     or if there are no formulas; so is then `probe`. `time_adds` and `depth_adds` say whether the
     formula of a time or a depth adds to the one before, or is a sum by itself. `errors` are the
-    relative errors of the six that digits admit, infinite for one that the rows do not tell, and
-    `time_error` is that of the time. Of
+    relative errors of the six that digits admit, and `time_error` that of the time. Of
     numbers without formulas `bounded` says whether the area stays the same beyond D/2, `digits` is
     the relative uncertainty of the numbers as typed, `rough` that of the decelerations they show.
     """

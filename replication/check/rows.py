@@ -21,8 +21,6 @@ _ENOUGH = 20
 """So many digits in all rows together tell the three numbers of a force."""
 _FAR = 3.0
 """A row whose deviation is so many times what its digits admit is not explained."""
-_TOLD = 0.3
-"""A number of which the digits admit a larger part to be wrong is not told at all."""
 _FIRST_ROWS = 6
 """So many rows are tried as the only ones before the depth R."""
 _SMALL = 1e-6
@@ -333,7 +331,7 @@ def _admitted(rows: Sequence[Row], force: ForceOfRows) -> tuple[float, float, fl
     """The relative errors of G, H and D that the digits of the rows admit, to first order.
 
     Digits are cut by anything up to half of the last one, not by chance: so errors add up as they
-    are. A number that may be wrong by a good part of itself is not told: its error is infinite.
+    are.
     """
     matrix, _ = _normal(rows, force)
     columns = [_solved(matrix, [float(i == j) for i in range(3)]) for j in range(3)]
@@ -346,8 +344,7 @@ def _admitted(rows: Sequence[Row], force: ForceOfRows) -> tuple[float, float, fl
             / (row.error * abs(row.a))
             for row in rows
         )
-        told = math.isfinite(error) and error < _TOLD * abs(number)
-        errors.append(max(EXACT, error / abs(number)) if told else math.inf)
+        errors.append(max(EXACT, error / abs(number)) if number else math.inf)
     return (errors[0], errors[1], errors[2])
 
 

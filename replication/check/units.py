@@ -21,6 +21,8 @@ _ALIKE = 1e-9
 """The decimal logarithm of a ratio up to which what formulas give is equal."""
 _VAGUE = math.log10(1.01)
 """Of numbers without formulas: inputs that are typed beside them may have few digits."""
+_TOLD = 0.3
+"""A number of which the digits admit a larger part to be wrong is not told at all."""
 _MOST_CHANGES = 6
 """So many units that nobody states may have to be found together."""
 
@@ -51,9 +53,13 @@ class Quantity:
 
 
 def _number(value: float | None, error: float = 0.0) -> Quantity:
-    """A number without a unit and its relative error; its logarithm is NaN if it has none."""
-    log = math.log10(value) if value is not None and 0 < value < math.inf else math.nan
-    return Quantity(log, error=math.log10(1 + error))
+    """A number without a unit and its relative error; its logarithm is NaN if it has none.
+
+    A number that may be wrong by a good part of itself is not told.
+    """
+    told = value is not None and 0 < value < math.inf and error < _TOLD
+    log = math.log10(value) if told and value is not None else math.nan
+    return Quantity(log, error=math.log10(1 + error) if told else math.inf)
 
 
 def _unit(item: Item) -> Quantity:
