@@ -287,8 +287,11 @@ def _stop_velocity(
             for each in (value * factor for factor in units):
                 if last < each <= before and each <= _SLOW * exam.fitted.six.V * unit:
                     return float(each)
-    # In a unit that nobody states, the rows should end with the first velocity below zero.
-    return 1.0 if exam.firm_speed else min([1.0, *(v for v in speeds.values() if v > 0)])
+    if exam.firm_speed and report_case(exam.intended, exam.fitted) is not None:
+        return 1.0
+    # Nobody states it, or its unit: the rows should end with the first velocity below zero.
+    earlier = (v for k, v in speeds.items() if v > 0 and k != max(speeds))
+    return min([1.0, *earlier])
 
 
 def _at_rest(exam: Examination, below: int) -> bool:

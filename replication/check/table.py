@@ -31,6 +31,8 @@ _HEADS = 5
 """How far above its numbers the head of a line may stand."""
 _EXACT = 1e-9
 """Relative difference up to which formulas follow a relation; they round to some 1e-15."""
+_ABOUT = 0.01
+"""The decimal logarithm of a ratio up to which two steps of typed numbers may be the same."""
 _LOOSE = 0.05
 """The same where no pair of lines follows one exactly, as in another scheme."""
 
@@ -459,9 +461,7 @@ def _on_sheet(evaluator: Evaluator, known: Sequence[Line], close: float) -> list
     """The tables among some lines of a sheet, the best pairs of depth and velocity first."""
     pairs = list(_pairs_of(known, close))
     if any(not pair.depth.computed for pair in pairs):
-        pairs = [
-            pair._replace(score=pair.score + _support(pair.speed, pair.c, known)) for pair in pairs
-        ]
+        pairs = [pair._replace(score=pair.score + _support(pair, known)) for pair in pairs]
     found: list[Table] = []
     used: set[Position] = set()
 
@@ -509,16 +509,20 @@ def _pairs_of(known: Sequence[Line], close: float) -> Iterator[_Pair]:
                     yield _Pair(_score(depth, speed, lag, share), depth, speed, lag, c)
 
 
-def _support(speed: Line, c: float, known: Sequence[Line]) -> float:
-    """How well other numbers support a velocity: one repeats it, or it falls by one times c."""
+def _support(pair: _Pair, known: Sequence[Line]) -> float:
+    """How well other numbers support a velocity: one repeats it, or it falls by one times c.
+
+    Of two depths, one of which is the other over the radius, c is the step for one of them only.
+    """
+    speed = pair.speed
     others = [line for line in known if line is not speed]
     repeated = any(repeats(speed, line) > 0.5 or repeats(line, speed) > 0.5 for line in others)
     falls: list[tuple[str, Line | None]] = [("velocity_initial", None), ("velocity_final", None)]
     falls += [("velocity_initial", line) for line in others if repeats(speed, line) > 0.5]
     falls += [("velocity_initial", speed) for line in others if repeats(line, speed) > 0.5]
     for role, end in falls:
-        brake = _brake(_falls(speed, end, role), others, c, speed, strict=True)
-        if brake is not None:
+        falls_by = _falls(speed, end, role)
+        if _brake(falls_by, others, pair.c, pair.depth, speed, strict=True) is not None:
             return 1.0 + repeated
     return float(repeated)
 
@@ -649,7 +653,7 @@ def _completed(
         if o not in taken and len(o.values.keys() & depth.values.keys()) >= len(depth.values) / 2
     ]  # fmt: skip
     if "deceleration" not in roles and (
-        brake := _brake(_falls(speed, both, role), others, c, both or speed)
+        brake := _brake(_falls(speed, both, role), others, c, depth, both or speed)
     ):
         roles["deceleration"] = brake
     if "time" not in roles and (time := _time(others, c, depth.number, set(roles.values()))):
@@ -741,15 +745,15 @@ def _first_row(
 
 
 def _brake(
-    falls: Sequence[tuple[int, float, float]], others: Sequence[Line], c: float, speed: Line,
-    strict: bool = False,
+    falls: Sequence[tuple[int, float, float]], others: Sequence[Line], c: float, depth: Line,
+    speed: Line, strict: bool = False,
 ) -> Line | None:  # fmt: skip
     """The line of decelerations: the velocity falls by it times the constant of the depth.
 
     Forces and changes of velocity fall with it, too, but by other constants; `strict` takes no
     line with another constant than a power of ten times `c`.
     """
-    ranked = []
+    ranked, of_depth = [], _error_of_growth(depth)
     for line in others:
         if _is_constant(line):
             continue
@@ -759,25 +763,41 @@ def _brake(
             for i, fall, rounding in falls
             if line.values.get(i)
         ]  # fmt: skip
-        e, share = _share(terms, _EXACT)
+        close = _EXACT
+        e, share = _share(terms, close)
         if share <= 0.5 or not e:
-            e, share = _share(terms, 1e-3) if not line.computed else (e, 0.0)
+            close = 1e-3
+            e, share = _share(terms, close) if not line.computed else (e, 0.0)
         if share <= 0.5:
             continue
+        error = of_depth + median(tolerance / abs(fall) for fall, _, tolerance in terms if fall)
         power = math.log10(abs(e) / c)
         off = abs(power - round(power))
-        fits = power_of_ten(abs(e) / c) is not None or (not line.computed and off < 0.01)
+        near = min(_ABOUT, math.log10(1 + 2 * error + close))
+        fits = power_of_ten(abs(e) / c) is not None or (not line.computed and off < near)
         named = "deceleration" in line.roles
         other = bool(line.roles) and not named
         reads = _reads(speed, line)
-        ranked.append((not fits, not named, other, round(off, 3), not reads, line.number, line))
+        rank = (not fits, not named, other, round(off, 3), not reads, line.number)
+        ranked.append((*rank, line))
     ranked.sort(key=lambda entry: entry[:-1])
     if strict:
         return ranked[0][-1] if ranked and not ranked[0][0] else None
     if not ranked or (ranked[0][0] and ranked[0][1]):
-        near = [entry for entry in ranked if not entry[2] and not entry[3]]
-        return near[0][-1] if near and ranked[0][0] and not _is_product(near[0][-1]) else None
+        likely = [entry for entry in ranked if not entry[2] and not entry[4]]
+        best = likely[0][-1] if likely and ranked[0][0] else None
+        return None if best is None or _is_product(best) else best
     return ranked[0][-1]
+
+
+def _error_of_growth(depth: Line) -> float:
+    """The usual relative error of what a depth grows by in a row, by the digits of its numbers."""
+    errors = []
+    for before, now in _pairs(depth):
+        x, last = depth.values[now], depth.values[before]
+        if x != last:
+            errors.append((depth.rounding(x) + depth.rounding(last)) / abs(x - last))
+    return median(errors) if errors else 0.0
 
 
 def _is_product(line: Line) -> bool:
