@@ -232,16 +232,11 @@ def _least_squares(rows: Sequence[Row], bounded: bool = True) -> ForceOfRows:
         return lost
     X, U, A = (max(abs(row[i]) for row in rows) or 1.0 for i in range(3))
     scaled = [row._replace(x=row.x / X, u=row.u / U, a=row.a / A) for row in rows]
-    thirds = [scaled[i::3] for i in range(3)] if len(scaled) >= 12 else []
-    # Where most rows are beyond the radius, only the first ones tell the sphere.
-    shallow = [scaled[: len(scaled) // n] for n in (2, 4, 8, 16) if len(scaled) // n >= 8]
-    fits = [
-        force
-        for part in (scaled, *thirds, *shallow)
-        if (force := _three_numbers(part, _linear(part), bounded)) is not None
-    ]
-    if bounded:
-        fits += _mostly_beyond(scaled)
+    fits: list[ForceOfRows] = []
+    for force in _trials(scaled, bounded):
+        fits.append(force)
+        if _explained(scaled, force) == len(scaled):
+            break
     if not fits:
         return lost
     best = min(fits, key=lambda force: _loss(scaled, force))
@@ -250,6 +245,18 @@ def _least_squares(rows: Sequence[Row], bounded: bool = True) -> ForceOfRows:
         best = _three_numbers(kept, best, bounded) or best
     G, H, D = best.G * A / (U * X) ** 2, best.H * A / X**2, best.D * X
     return ForceOfRows(G, H, D, _admitted(_without_outliers(scaled, best), best), bounded)
+
+
+def _trials(rows: Sequence[Row], bounded: bool) -> Iterator[ForceOfRows]:
+    """The forces of all rows, and of parts of them without a wrong one."""
+    thirds = [rows[i::3] for i in range(3)] if len(rows) >= 12 else []
+    # Where most rows are beyond the radius, only the first ones tell the sphere.
+    shallow = [rows[: len(rows) // n] for n in (2, 4, 8, 16) if len(rows) // n >= 8]
+    for part in (rows, *thirds, *shallow):
+        if (force := _three_numbers(part, _linear(part), bounded)) is not None:
+            yield force
+    if bounded:
+        yield from _mostly_beyond(rows)
 
 
 def _loss(rows: Sequence[Row], force: ForceOfRows) -> float:

@@ -8,10 +8,11 @@ a unit is to blame; the one statement is sought that mends all.
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 
 from reference.units import same_dimension, to_si
 from replication.check.fit import Fit
-from replication.check.responses import CLOSE, Item, Source, unit_power
+from replication.check.responses import Item, Source, unit_power
 from replication.check.roles import Inputs
 from replication.check.six import start_of_row
 from replication.check.table import Table
@@ -240,14 +241,14 @@ def _solve(
     """Change as few free units as possible, by powers of ten, so that all equations hold."""
     left, later = _set_apart(found, powers, free)
     for most in range(_MOST_CHANGES):
-        result = _changed(left, dict(powers), list(free), most)
+        result = _changed(left, powers, free, most)
         if result is not None:
             holds = all(_mend_own(eq, own, result) for eq, own in reversed(later))
             if holds:
                 return result
             break
     for most in range(_MOST_CHANGES):  # the units set apart do not fit: all equations at once
-        if (result := _changed(found, dict(powers), list(free), most)) is not None:
+        if (result := _changed(found, powers, free, most)) is not None:
             return result
     return None
 
@@ -294,20 +295,35 @@ def _mend_own(eq: Equation, own: Sequence[Item], result: dict[Item, float]) -> b
 
 
 def _changed(
-    left: Sequence[Equation], powers: dict[Item, float], free: list[Item], most: int
+    left: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], most: int
 ) -> dict[Item, float] | None:
-    """Change up to `most` free units, so that the equations hold; None if that cannot be done."""
-    wrong = [eq for eq in left if not eq.holds(powers)]
-    if not wrong or not most:
-        return None if wrong else powers
-    # An equation with a single free unit leaves no choice, so that it comes first.
-    broken = min(wrong, key=lambda eq: sum(item in eq.terms for item in free))
-    rest = broken.residual(powers)
-    for item in free:
-        power = -rest / broken.terms[item] if item in broken.terms else 0.0
-        if round(power) and abs(power - round(power)) <= broken.slack + 2 * CLOSE:
-            changed = {**powers, item: powers.get(item, 0.0) + round(power)}
-            others = [i for i in free if i != item]
-            if (result := _changed(left, changed, others, most - 1)) is not None:
-                return result
+    """Change so many free units, so that the equations hold; None if that cannot be done."""
+    broken = [eq for eq in left if not eq.holds(powers)]
+    items = [item for item in free if any(item in eq.terms for eq in left)]
+    for some in combinations(items, most):
+        if all(any(item in eq.terms for item in some) for eq in broken):
+            changes = _whole_powers(left, powers, some)
+            changed = {**powers, **{i: powers.get(i, 0.0) + n for i, n in changes.items()}}
+            if len(changes) == most and all(eq.holds(changed) for eq in left):
+                return changed
     return None
+
+
+def _whole_powers(
+    left: Sequence[Equation], powers: Mapping[Item, float], some: Sequence[Item]
+) -> dict[Item, float]:
+    """The powers of ten of some units by which linear equations hold; empty if they do not tell."""
+    rows = [
+        [*(eq.terms.get(item, 0.0) for item in some), float(-round(eq.residual(powers)))]
+        for eq in left
+        if any(item in eq.terms for item in some)
+    ]
+    for i in range(len(some)):
+        pivot = max(range(i, len(rows)), key=lambda r: abs(rows[r][i]), default=-1)
+        if pivot < 0 or abs(rows[pivot][i]) < 1e-9:
+            return {}
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        for r, row in enumerate(rows):
+            factor = row[i] / rows[i][i] if r != i else 0.0
+            rows[r] = [a - factor * b for a, b in zip(row, rows[i], strict=True)]
+    return {item: float(round(rows[i][-1] / rows[i][i])) for i, item in enumerate(some)}
