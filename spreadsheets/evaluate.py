@@ -559,6 +559,11 @@ class Evaluator:
             right=max(min(area.right, columns), area.left),
         )
 
+    def has_subtotal(self, place: Position) -> bool:
+        """Whether a cell has a formula with SUBTOTAL, which other subtotals leave out."""
+        shape = self.formulas.get(place)
+        return shape is not None and "SUBTOTAL(" in shape.key.upper()
+
     def areas(self, place: Position) -> list[Area]:
         """The areas that the formula of a cell refers to; none for a cell without a formula."""
         shape = self.formulas.get(place)

@@ -7,6 +7,7 @@ numbers; a number given directly may also be a text of digits or a truth value.
 import math
 from collections.abc import Callable, Iterator, Sequence
 
+from reference.units import UnitError, same_dimension, to_si
 from spreadsheets.scalars import (
     Area,
     CellError,
@@ -188,7 +189,11 @@ def _average(numbers: list[float]) -> float:
 
 
 def _sum(numbers: list[float]) -> float:
-    return float(sum(numbers))
+    """The sum from left to right, which Python's own `sum` compensates from version 3.12 on."""
+    total = 0.0
+    for x in numbers:
+        total += x
+    return total
 
 
 def _largest(numbers: list[float]) -> float:
@@ -208,7 +213,7 @@ def _product(numbers: list[float]) -> float:
 
 
 def _squares(numbers: list[float]) -> float:
-    return float(sum(x * x for x in numbers))
+    return _sum([x * x for x in numbers])
 
 
 def _median(numbers: list[float]) -> float:
@@ -248,6 +253,59 @@ def _aggregate(name: str, arguments: Arguments) -> Run:
         return finite(function(_numbers(name, arguments, at)))
 
     return run
+
+
+_SUBTOTALS = ("AVERAGE", "COUNT", "COUNTA", "MAX", "MIN", "PRODUCT", "STDEV", "", "SUM")
+"""What SUBTOTAL computes by its first argument, from 1 on; STDEVP, 8, is not among them."""
+_WITHOUT_HIDDEN = 100
+"""By so much the first argument is larger if rows that somebody hid are to be left out."""
+
+
+def _subtotal(name: str, arguments: Arguments) -> Run:
+    """SUBTOTAL, which leaves out other subtotals and, from 101 on, hidden rows.
+
+    Below 101 it leaves out the rows that a filter hides, and those only: which do, a file does not
+    say.
+    """
+    count_arguments(name, arguments, 2, 255)
+
+    def run(at: Site) -> object:
+        code = _whole(arguments[0], at)
+        kind = code - _WITHOUT_HIDDEN if code > _WITHOUT_HIDDEN else code
+        if not 1 <= kind <= len(_SUBTOTALS) or not _SUBTOTALS[kind - 1]:
+            raise NotComputedError(f"it uses SUBTOTAL({code}, ...)")
+        areas = [area_of(argument(at)) if argument else None for argument in arguments[1:]]
+        cells = [
+            cell
+            for area in areas
+            for cell in _shown_cells(area, at, without_hidden=code > _WITHOUT_HIDDEN)
+        ]
+        if _SUBTOTALS[kind - 1] == "COUNTA":
+            return float(sum(cell is not None for cell in cells))
+        for cell in cells:
+            if type(cell) is Error and kind != 2:
+                raise CellError(cell)
+        numbers = [cell for cell in cells if type(cell) is float]
+        return finite(AGGREGATES[_SUBTOTALS[kind - 1]](numbers))
+
+    return run
+
+
+def _shown_cells(area: Area | None, at: Site, *, without_hidden: bool) -> Values:
+    """The values of a range without those of other subtotals, and without hidden rows."""
+    if area is None:
+        raise NotComputedError("it uses SUBTOTAL of more than ranges")
+    evaluator = at.evaluator
+    used = evaluator.used(area)
+    hidden = evaluator.book.hidden.get(area.sheet, frozenset())
+    if hidden and not without_hidden and not hidden.isdisjoint(range(used.top, used.bottom + 1)):
+        raise NotComputedError("it uses SUBTOTAL of hidden rows, which a filter may leave out")
+    at.spend(used.cells)
+    return [
+        at.value(place)
+        for place in used.places()
+        if place[1] not in hidden and not evaluator.has_subtotal(place)
+    ]
 
 
 def _counting(name: str, arguments: Arguments) -> Run:
@@ -698,6 +756,29 @@ def _sumproduct(name: str, arguments: Arguments) -> Run:
     return run
 
 
+_OTHER_NAMES = {"lbm": "lb", "sec": "s", "p": "Pa"}
+"""Units that spreadsheets call otherwise than `reference.units` does."""
+
+
+def _convert(name: str, arguments: Arguments) -> Run:
+    """CONVERT, between units that `reference.units` knows."""
+    count_arguments(name, arguments, 3, 3)
+
+    def run(at: Site) -> object:
+        x, *units = (0.0 if a is None else scalar(a(at), at) for a in arguments)
+        own, wanted = (_OTHER_NAMES.get(str(unit), str(unit)) for unit in units)
+        try:
+            alike = same_dimension(own, wanted)
+            factor = to_si(own) / to_si(wanted)
+        except UnitError as error:
+            raise NotComputedError(f"it converts {own[:20]} to {wanted[:20]}") from error
+        if not alike:
+            raise CellError("#N/A")
+        return finite(number(x, at) * float(factor))
+
+    return run
+
+
 def _ranked(name: str, arguments: Arguments) -> Run:
     """LARGE and SMALL."""
     count_arguments(name, arguments, 2, 2)
@@ -730,7 +811,7 @@ FUNCTIONS: dict[str, Callable[[str, Arguments], Run]] = {
     ),
     "CHOOSE": _choose, "IF": _if, "IFS": _ifs, "INDEX": _index, "LOOKUP": _lookup,
     "MATCH": _match, "N": _n, "NA": _na, "NOT": _not, "OFFSET": _offset,
-    "SUMPRODUCT": _sumproduct,
+    "CONVERT": _convert, "SUBTOTAL": _subtotal, "SUMPRODUCT": _sumproduct,
 }  # fmt: skip
 """Every function that is computed here, by its name."""
 

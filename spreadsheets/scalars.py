@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple, Protocol
 
-from spreadsheets.foreign import Position
+from spreadsheets.foreign import Book, Position
 
 MAX_WORK = 8_000_000
 """How many cells all ranges of all formulas may have together: some seconds."""
@@ -190,6 +190,7 @@ MEETS = {"=": (0,), "<>": (-1, 1), "<": (-1,), ">": (1,), "<=": (-1, 0), ">=": (
 class Cells(Protocol):
     """What a formula may ask of the book that is evaluated; `evaluate.Evaluator` answers."""
 
+    book: Book
     values: dict[Position, Scalar]
     pending: dict[Position, None]
     aggregates: dict[tuple[str, Area], float]
@@ -201,6 +202,10 @@ class Cells(Protocol):
 
     def computed(self, place: Position, at: "Site") -> Scalar:
         """The value of a formula, at a site."""
+        ...
+
+    def has_subtotal(self, place: Position) -> bool:
+        """Whether a cell has a formula with SUBTOTAL, which other subtotals leave out."""
         ...
 
 

@@ -316,7 +316,8 @@ def _advance(table: Table, probe: Probe) -> tuple[float, Variant | None]:
     if not adds and _is_sum(table, probe, slopes):
         return slopes[start_of_row(table)], REPORT["depth"]
     if not adds:
-        return c, _without_adding(table, speeds, others)
+        way = _without_adding(table, speeds, others)
+        return (math.nan if way is VARIANTS["velocity times time"] else c), way
     if others and all(role == "deceleration" for role, _ in others):
         return c, VARIANTS["second order"]
     if others or not speeds:

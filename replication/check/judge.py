@@ -11,7 +11,7 @@ from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import AnotherModelError, Examination, near
 from replication.check.excerpt import judge_excerpt
 from replication.check.fit import Fit, is_part
-from replication.check.model import blank_inputs, refuse_other_model
+from replication.check.model import blank_inputs, refuse_other_model, zero_of_blank
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
 from replication.check.six import (
@@ -52,6 +52,12 @@ def examine(
     exam = Examination(table, fitted)
     inputs = recognize(table, exam.fitted, given, names, idle)
     exam.read = frozenset(s.cell for s in inputs.sources if s.cell)
+    zero = zero_of_blank(exam, inputs)
+    if zero is not None:
+        text = f"{formula_at(exam, zero)} reads a blank cell: it is 0, so that nothing follows"
+        exam.add("odd formula", [zero], None, text)
+        exam.ends = False
+        return exam
     state_units(table, inputs)
     _trust_report(inputs)
     found = equations(table, exam.fitted, inputs)

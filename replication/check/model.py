@@ -73,6 +73,26 @@ def _refuse_zero(inputs: Inputs) -> None:
             raise AnotherModelError(f"{where}: {title(role)} is 0: no impact has that")
 
 
+def zero_of_blank(exam: Examination, inputs: Inputs) -> Position | None:
+    """A formula that the label calls an input, and that is zero as it reads a blank cell."""
+    evaluator = exam.table.evaluator
+    for source in inputs.sources:
+        label, unit = inputs.label(source)
+        named = bool(label) and len(input_roles(label, unit)) == 1
+        if (
+            source.cell not in evaluator.formulas
+            or source.cell is None
+            or source.value
+            or not named
+        ):
+            continue
+        read = (area.corner for area in evaluator.areas(source.cell) if area.cells == 1)
+        if any(cell not in evaluator.formulas and evaluator.values.get(cell) is None
+               for cell in read):  # fmt: skip
+            return source.cell
+    return None
+
+
 def blank_inputs(exam: Examination) -> list[Position]:
     """The blank cells that the force reads as the density or the resistance of the target.
 

@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from statistics import median
 from typing import NamedTuple
 
@@ -57,9 +58,31 @@ class ForceOfRows(NamedTuple):
         return (self.G * u * u + self.H) * area
 
 
-def fit_table(table: Table) -> Fit:
-    """Fit a table: by its formulas, where it has them, or else by its numbers."""
-    return fit_formulas(table) or fit_numbers(table)
+def fit_table(table: Table) -> tuple[Table, Fit]:
+    """Fit a table: by its formulas, where it has them, or else by its numbers.
+
+    Two formulas may share a column, a wrong one that most cells have and a right one that at least
+    a quarter has: the table is returned with the right one as that which its cells should have.
+    """
+    fitted = fit_formulas(table)
+    if fitted is None:
+        return table, fit_numbers(table)
+    for trial in _with_rarer_formulas(table) if fitted.odd else ():
+        again = fit_formulas(trial)
+        if again is not None and again.probe is not None and not again.odd:
+            return trial, again
+    return table, fitted
+
+
+def _with_rarer_formulas(table: Table) -> Iterator[Table]:
+    """The table with the second formula of one of its columns in place of the usual one."""
+    for line in (*table.lines.values(), *table.helpers):
+        for shape, count in line.shapes.most_common(2)[1:]:
+            if line.usual is not None and shape is not line.usual and 4 * count >= len(line.values):
+                other = replace(line, meant=shape)
+                lines = {r: other if o is line else o for r, o in table.lines.items()}
+                helpers = tuple(other if o is line else o for o in table.helpers)
+                yield replace(table, lines=lines, helpers=helpers, places={})
 
 
 def fit_numbers(table: Table) -> Fit:

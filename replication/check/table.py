@@ -439,7 +439,10 @@ def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[Table]:
 def _by_heads(evaluator: Evaluator, known: Sequence[Line]) -> list[Table]:
     """The table of lines whose heads name them, where values do not tell."""
     named = {role: o for o in reversed(known) for role in o.roles if len(o.roles) == 1}
-    if not {"depth", "velocity_initial"} <= named.keys() or not named["depth"].grows:
+    if not {"depth", "velocity_initial"} <= named.keys():
+        return []
+    depth, speed = named["depth"], named["velocity_initial"]
+    if not (depth.grows or _reads(depth, speed)):
         return []
     table = _given(evaluator, {r: o for r, o in named.items() if r != "other"}, [])
     return [table] if table else []

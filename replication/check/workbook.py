@@ -95,7 +95,8 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
     if not found:
         raise ValueError(_nothing(evaluator))
     names = cell_names(evaluator)
-    fits = [(table, fit_table(table)) for table in found]
+    fits = [fit_table(table) for table in found]
+    found = [table for table, _ in fits]
     idle = numbers_apart(evaluator, fits)
     exams: list[Examination] = []
     others: list[str] = []
