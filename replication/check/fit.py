@@ -316,8 +316,7 @@ def _advance(table: Table, probe: Probe) -> tuple[float, Variant | None]:
     if not adds and _is_sum(table, probe, slopes):
         return slopes[start_of_row(table)], REPORT["depth"]
     if not adds:
-        way = _without_adding(table, speeds, others)
-        return (math.nan if way is VARIANTS["velocity times time"] else c), way
+        return c, _without_adding(table, speeds, others)
     if others and all(role == "deceleration" for role, _ in others):
         return c, VARIANTS["second order"]
     if others or not speeds:

@@ -14,7 +14,7 @@ from reference.units import same_dimension, to_si
 from replication.check.fit import Fit
 from replication.check.responses import Item, Source, unit_power
 from replication.check.roles import Inputs
-from replication.check.six import start_of_row
+from replication.check.six import VARIANTS, start_of_row
 from replication.check.table import Table
 from replication.check.words import COLUMNS, INPUTS
 
@@ -106,7 +106,9 @@ def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
     )
     if "deceleration" not in table.lines:
         A = W**2 / X
-    c, e = _number(six.c, errors.c) * X / W, _number(abs(six.e), errors.e) * W / A
+    by_time = fitted.ways.get("depth") is VARIANTS["velocity times time"]
+    step = math.nan if by_time else six.c  # then the depth grows by no step
+    c, e = _number(step, errors.c) * X / W, _number(abs(six.e), errors.e) * W / A
     t = _number(fitted.time, fitted.time_error) * T
     sides = {"c = e": (c, e)} if "deceleration" in table.lines else {}
     if {"velocity_initial", "velocity_final"} <= table.lines.keys():
