@@ -16,6 +16,7 @@ from reference.enclosure import Solutions, solve
 from reference.ledger import INFERRED, Claim, Ledger
 from reference.printed import parse
 from reference.units import to_si
+from replication.audit.crosschecks import COMPARED_WITH
 from replication.audit.record import BackSolved, Proof, Repair
 from replication.audit.verdict import Judge, Values, agrees, disagreeing, follows
 
@@ -24,7 +25,8 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
     """Return the claims whose verdicts may change with a claim or an equation, itself included.
 
     A claim that rests on an inferred input depends on the evidence for that input, and on all that
-    the evidence rests on. An input that other claims confirm depends on those claims.
+    the evidence rests on. An input that other claims confirm depends on those claims, and a number
+    that is compared with others depends on them.
     """
     within = ledger.equation_of(name)
     direct = {
@@ -36,6 +38,8 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
         if direct & set(inferred.evidence):
             unknown = INFERRED + key
             direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
+            direct |= {claim for claim, claims in COMPARED_WITH.items() if unknown in claims}
+    direct |= {claim for claim, claims in COMPARED_WITH.items() if name in claims}
     return direct | {c.id for c in ledger.claims.values() if direct & set(c.shown_by)}
 
 

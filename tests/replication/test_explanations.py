@@ -3,14 +3,16 @@
 import math
 import random
 from fractions import Fraction as F
+from typing import cast
 
 import pytest
 
 from reference.arithmetic import Floats
 from reference.equations import EquationError, evaluate
-from reference.ledger import Ledger, load
+from reference.ledger import Claim, Ledger, load
 from replication.audit.assessment import Verdict
 from replication.audit.audit import Audit
+from replication.audit.crosschecks import COMPARED_WITH, CROSS_CHECKS
 from replication.audit.explain import (
     EQUATION_EDITS,
     Explainer,
@@ -362,6 +364,36 @@ def test_intervals_of_rates_are_wilsons() -> None:
     assert interval(0, 0) == "-"
     nothing = Power(seed=1, by_kind={"bound": Counts()})
     assert {row[2] for row in nothing.rates().rows} == {"-"}
+
+
+class Reader:
+    """Stands for the ledger, and notes the ids of what is read from it."""
+
+    def __init__(self) -> None:
+        self.names: set[str] = set()
+        self.sources = LEDGER.sources
+        self.claims = self
+
+    def value(self, name: str) -> F:
+        self.names.add(name)
+        return LEDGER.value(name)
+
+    def __getitem__(self, name: str) -> Claim:
+        self.names.add(name)
+        return LEDGER.claims[name]
+
+
+@pytest.mark.parametrize("name", CROSS_CHECKS)
+def test_a_cross_check_reads_what_it_is_said_to_be_compared_with(name: str) -> None:
+    reader = Reader()
+    CROSS_CHECKS[name](cast(Ledger, reader))
+    assert reader.names | {name} == {name, *COMPARED_WITH[name]}
+
+
+def test_what_a_number_is_compared_with_may_change_its_verdict() -> None:
+    wrong = Plant("a1-radius", "1.10E-05", "21.10E-05", "digit inserted")
+    failing, _ = trial(TRUTH, wrong)
+    assert "autodyne-time" in failing
 
 
 @pytest.mark.slow
