@@ -3,9 +3,9 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from replication.check.fit import Fit
+from replication.check.fit import TableFit
 from replication.check.roles import recognize
-from replication.check.table import Table
+from replication.check.table import SchemeTable
 from replication.check.units import equations, state_units
 from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Position
@@ -31,16 +31,16 @@ class Idle:
     """
 
     evaluator: Evaluator
-    tables: Sequence[tuple[Table, Fit]]
+    tables: Sequence[tuple[SchemeTable, TableFit]]
     unread: Sequence[Position]
     typed: Sequence[Position]
-    sheets: Mapping[Table, frozenset[str]]
+    sheets: Mapping[SchemeTable, frozenset[str]]
 
 
-def numbers_apart(evaluator: Evaluator, tables: Sequence[tuple[Table, Fit]]) -> Idle:
+def numbers_apart(evaluator: Evaluator, tables: Sequence[tuple[SchemeTable, TableFit]]) -> Idle:
     """Find the numbers that stand in no table, and those of them that no table reads."""
     lined = {place for table, _ in tables for place in _lined(table)}
-    read, sheets = set[Position](), dict[Table, frozenset[str]]()
+    read, sheets = set[Position](), dict[SchemeTable, frozenset[str]]()
     for table, _ in tables:
         own = _read_by(table, lined)
         read |= own
@@ -51,13 +51,13 @@ def numbers_apart(evaluator: Evaluator, tables: Sequence[tuple[Table, Fit]]) -> 
     return Idle(evaluator, tables, unread[:_MOST_IDLE], typed, sheets)
 
 
-def _lined(table: Table) -> set[Position]:
+def _lined(table: SchemeTable) -> set[Position]:
     """The cells of a table and of the lines beside it."""
     helpers = (line.place(i) for line in table.helpers for i in line.values)
     return {*table.places, *helpers}
 
 
-def _read_by(table: Table, lined: set[Position]) -> set[Position]:
+def _read_by(table: SchemeTable, lined: set[Position]) -> set[Position]:
     """The cells that a table reads, directly or not; of a large range, its first cell."""
     formulas = table.evaluator.formulas
     read, waiting = set[Position](), [p for p in _lined(table) if p in formulas]
@@ -72,18 +72,18 @@ def _read_by(table: Table, lined: set[Position]) -> set[Position]:
     return read
 
 
-def unused_formulas(idle: Idle, table: Table) -> list[Position]:
+def unused_formulas(idle: Idle, table: SchemeTable) -> list[Position]:
     """The formulas on the sheet of a table that no table reads: of a mass, say."""
     formulas = idle.evaluator.formulas
     return [p for p in idle.unread if p in formulas and p[0] == table.sheet][:_MOST_UNUSED]
 
 
-def typed_beside(idle: Idle, table: Table) -> list[Position]:
+def typed_beside(idle: Idle, table: SchemeTable) -> list[Position]:
     """The typed numbers on the sheet of a table that stand in no table."""
     return [place for place in idle.typed if place[0] == table.sheet][:_MOST_BESIDE]
 
 
-def idle_inputs(idle: Idle, table: Table, names: Mapping[Position, str]) -> list[Position]:
+def idle_inputs(idle: Idle, table: SchemeTable, names: Mapping[Position, str]) -> list[Position]:
     """The typed numbers that nothing reads and that may be inputs of a table.
 
     A sheet with tables is theirs; another one belongs to the tables that read it, or to all if none
@@ -110,7 +110,7 @@ def idle_inputs(idle: Idle, table: Table, names: Mapping[Position, str]) -> list
     return own[:_MOST_BESIDE]
 
 
-def _owners(idle: Idle, sheet: str) -> list[tuple[Table, Fit]]:
+def _owners(idle: Idle, sheet: str) -> list[tuple[SchemeTable, TableFit]]:
     """The tables to which the numbers of a sheet may belong."""
     on_it = [entry for entry in idle.tables if entry[0].sheet == sheet]
     readers = [entry for entry in idle.tables if sheet in idle.sheets[entry[0]]]
@@ -118,7 +118,7 @@ def _owners(idle: Idle, sheet: str) -> list[tuple[Table, Fit]]:
 
 
 def _agreement(
-    table: Table, fitted: Fit, names: Mapping[Position, str], places: Sequence[Position]
+    table: SchemeTable, fitted: TableFit, names: Mapping[Position, str], places: Sequence[Position]
 ) -> float:
     """The share of the equations between a table and some cells that hold up to units."""
     inputs = recognize(table, fitted, {}, names, places)

@@ -10,7 +10,7 @@ from replication.check.constants import typed_constants, typed_stops
 from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import AnotherModelError, Examination, near
 from replication.check.excerpt import judge_excerpt
-from replication.check.fit import Fit, is_part
+from replication.check.fit import TableFit, is_part
 from replication.check.model import blank_inputs, refuse_other_model, zero_of_blank
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
@@ -19,13 +19,13 @@ from replication.check.six import (
     VARIANTS,
     end_of_row,
     first_speed,
-    origin,
+    first_written,
     start_of_row,
 )
-from replication.check.table import Line, Table, address
+from replication.check.table import Line, SchemeTable, cell_name
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
-from replication.check.units import Equation, Quantity, equations, right_units, state_units
-from replication.check.words import times_too, title, unit_text
+from replication.check.units import Balance, Magnitude, equations, right_units, state_units
+from replication.check.words import times_too, title, unit_name
 from spreadsheets.foreign import Position
 
 _PIS = (3.14, 3.1416, 3.14159, 3.142, 3.1415, 22 / 7, 3.141593, 3.1415927)
@@ -41,7 +41,8 @@ _MOST_POWER = 300.0
 
 
 def examine(
-    table: Table, fitted: Fit, names: Mapping[Position, str], given: Mapping[str, Position],
+    table: SchemeTable, fitted: TableFit, names: Mapping[Position, str],
+    given: Mapping[str, Position],
     idle: Sequence[Position], typed: Sequence[Position],
 ) -> Examination:  # fmt: skip
     """Judge a table. Raises AnotherModelError if it does not follow the report's.
@@ -104,7 +105,7 @@ def _trust_report(inputs: Inputs) -> None:
             inputs.stated[source.item] = False
 
 
-def _is_half(found: Sequence[Equation], inputs: Inputs) -> bool:
+def _is_half(found: Sequence[Balance], inputs: Inputs) -> bool:
     """Whether the number taken for the diameter is the radius: the mass is an eighth.
 
     The formula for the diameter is then wrong, not that for the mass.
@@ -184,7 +185,7 @@ def _not_computed(exam: Examination, place: Position) -> bool:
         if reason is None or evaluator.values.get(area.corner) is not None:
             continue
         if not reason.startswith("nothing is called"):
-            raise AnotherModelError(f"{address(area.corner, True)} is not computed: {reason}")
+            raise AnotherModelError(f"{cell_name(area.corner, True)} is not computed: {reason}")
         text = f"{formula_at(exam, area.corner)}: {reason}"
         exam.add("odd formula", [area.corner], None, text)
         return True
@@ -235,15 +236,13 @@ def _slips(name: str, inputs: Inputs) -> list[tuple[float, str]]:
     return slips
 
 
-def _without_unit(
-    inputs: Inputs, found: Sequence[Equation]
-) -> tuple[dict[str, str], list[Equation]]:
+def _without_unit(inputs: Inputs, found: Sequence[Balance]) -> tuple[dict[str, str], list[Balance]]:
     """The equations that no unit can mend, each by its name with the slip that it shows.
 
     Then all the others; and those with a slip, without it, as they still tell a unit.
     """
     broken: dict[str, str] = {}
-    mendable: list[Equation] = []
+    mendable: list[Balance] = []
     for eq in found:
         rest = eq.residual(inputs.powers)
         free = [item for item in eq.terms if item not in inputs.stated]
@@ -262,7 +261,7 @@ def _without_unit(
             off = rest - math.log10(ratio)
             if not broken[eq.name] and abs(off - round(off)) <= max(eq.slack, 1e-8):
                 broken[eq.name] = slip
-                mendable.append(replace(eq, ratio=eq.ratio * Quantity(-math.log10(ratio))))
+                mendable.append(replace(eq, ratio=eq.ratio * Magnitude(-math.log10(ratio))))
     return broken, mendable
 
 
@@ -272,7 +271,7 @@ def _clipped(power: float) -> float:
 
 
 def _broken_equations(
-    exam: Examination, inputs: Inputs, found: Sequence[Equation], broken: Mapping[str, str]
+    exam: Examination, inputs: Inputs, found: Sequence[Balance], broken: Mapping[str, str]
 ) -> None:
     """Report the equations that do not hold, each where it is written."""
     times = {eq.name: 10.0 ** _clipped(eq.residual(inputs.powers)) for eq in found}
@@ -293,14 +292,14 @@ def _broken_equations(
     start = first_speed(exam.table)
     if "V" in broken and start is not None and start not in {d.place for d in exam.differences}:
         velocity = inputs.cells["velocity"]
-        where = address(velocity.cell, True) if velocity.cell else "its name"
-        start = _written(exam.table, origin(exam.table, start))
+        where = cell_name(velocity.cell, True) if velocity.cell else "its name"
+        start = _written(exam.table, first_written(exam.table, start))
         kind = "odd formula" if start in exam.table.evaluator.formulas else "typed number"
         text = f"the first velocity is {times['V']:.6g} times {title('velocity')} in {where}"
         exam.add(kind, [start], velocity.value, text)
 
 
-def _written(table: Table, place: Position) -> Position:
+def _written(table: SchemeTable, place: Position) -> Position:
     """The cell beside a table in which a number is computed that others only repeat."""
     evaluator = table.evaluator
     shown = evaluator.areas(place)
@@ -386,7 +385,7 @@ def _beta_typed(
         return False
     if stress.cell is None or not any(area.covers(stress.cell) for area in own):
         return False
-    where = address(beta.cell, beta.cell[0] != exam.table.sheet)
+    where = cell_name(beta.cell, beta.cell[0] != exam.table.sheet)
     text = f"{title('beta')} is typed as {typed[0]:.10g}, where {where} should be read"
     exam.add("typed constant", blamed, where, text, formula_at(exam, blamed[0]))
     return True
@@ -465,7 +464,7 @@ def _wrong_unit(exam: Examination, inputs: Inputs, item: Item, stated: float) ->
     if kind == "column":
         role = str(what)
         line = exam.table.lines[role]
-        shown = unit_text(role, round(right)) if whole else "another unit"
+        shown = unit_name(role, round(right)) if whole else "another unit"
         text = f"the head gives {title(role)} in {line.unit or 'SI units'}, but the numbers are in "
         place = line.unit_place or line.place(min(line.values))
         exam.add("unit", [place, *exam.cells(role, 0)], shown, text + shown, line.unit)
@@ -475,7 +474,7 @@ def _wrong_unit(exam: Examination, inputs: Inputs, item: Item, stated: float) ->
     if source.place is None:
         return  # a name that stands for a number states no unit
     _, unit = inputs.label(source)
-    shown = unit_text(role, round(right)) if whole else "another unit"
+    shown = unit_name(role, round(right)) if whole else "another unit"
     if unit is None and source.computed:
         power = round(right - stated)
         text = f"{title(role)} is {times_too(-power)}: a unit is not converted"
@@ -495,7 +494,7 @@ _FOLLOWS = {"c = e": {"c = dt", "e = dt"}, "t = c": {"t = dt", "c = dt"}}
 """Equations that follow from two others, which tell the column that is wrong."""
 
 
-def _not_converted(exam: Examination, inputs: Inputs, found: Sequence[Equation]) -> None:
+def _not_converted(exam: Examination, inputs: Inputs, found: Sequence[Balance]) -> None:
     """Report equations that a power of ten breaks, where no single statement mends all of them."""
     accused = {cell for d in exam.differences for cell in d.cells}
     rests = {eq.name: eq.residual(inputs.powers) for eq in found}
@@ -521,7 +520,7 @@ def _written_in(exam: Examination, inputs: Inputs, name: str) -> tuple[list[Posi
         return [source.cell], title(name)
     start = first_speed(exam.table)
     if name == "V" and start is not None:
-        return [origin(exam.table, start)], "the first velocity"
+        return [first_written(exam.table, start)], "the first velocity"
     column, first = exam.fitted.brakes, 1
     if name in ("t = dt", "t = c"):
         column = "time"

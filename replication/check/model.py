@@ -10,9 +10,9 @@ from replication.check.examination import AnotherModelError, Examination
 from replication.check.responses import FAMILIES, trace
 from replication.check.roles import Inputs
 from replication.check.six import REPORT, VARIANTS, end_of_row, start_of_row
-from replication.check.table import address
+from replication.check.table import cell_name
 from replication.check.taken import report_inputs
-from replication.check.units import Equation
+from replication.check.units import Balance
 from replication.check.words import input_roles, title
 from spreadsheets.foreign import Position
 
@@ -26,7 +26,7 @@ _FEW_ROWS = 6
 """Of fewer rows without formulas it cannot be said that they follow another model."""
 
 
-def refuse_other_model(exam: Examination, inputs: Inputs, found: Sequence[Equation]) -> None:
+def refuse_other_model(exam: Examination, inputs: Inputs, found: Sequence[Balance]) -> None:
     """Raise AnotherModelError if the formulas are not the report's, and the inputs are not either.
 
     Formulas that are not the report's are a fault if the rest of the table is: if two of the
@@ -37,7 +37,7 @@ def refuse_other_model(exam: Examination, inputs: Inputs, found: Sequence[Equati
         return
     for role, source in inputs.cells.items():
         if source.cell in exam.read and source.value <= 0 and role != "stop_velocity":
-            where = address(source.cell, True)
+            where = cell_name(source.cell, True)
             raise AnotherModelError(
                 f"{where}: {title(role)} is {source.value:g}: no impact has that"
             )
@@ -68,7 +68,7 @@ def _refuse_zero(inputs: Inputs) -> None:
         label, unit = inputs.label(source)
         roles = input_roles(label, unit) if label and source.cell and not source.value else ()
         if len(roles) == 1 and "stop_velocity" not in roles:
-            where = address(source.cell, True) if source.cell else ""
+            where = cell_name(source.cell, True) if source.cell else ""
             (role,) = roles
             raise AnotherModelError(f"{where}: {title(role)} is 0: no impact has that")
 
@@ -171,13 +171,13 @@ def _sentence(exam: Examination, role: str) -> str:
     found = f"another model: {table.sheet!r} has depths in {depth} and velocities in {speed}"
     if place in table.evaluator.formulas:
         formula = formula_at(exam, place)[:120]
-        return f"{found}, but {subject} in {address(place, True)}, {formula}, {what}"
+        return f"{found}, but {subject} in {cell_name(place, True)}, {formula}, {what}"
     if table.evaluator.book.is_text:
         return f"another model: the number in {where(table.evaluator.book, place)}, {what}"
-    return f"{found}, but the number in {address(place, True)} {what}"
+    return f"{found}, but the number in {cell_name(place, True)} {what}"
 
 
-def _steps_agree(found: Sequence[Equation], inputs: Inputs) -> bool:
+def _steps_agree(found: Sequence[Balance], inputs: Inputs) -> bool:
     """Whether depth and velocity of a table of numbers change by the same step, in some unit."""
     rests = [(eq.residual(inputs.powers), eq.slack) for eq in found if eq.name == "c = e"]
     return all(abs(rest - round(rest)) < slack for rest, slack in rests)

@@ -6,7 +6,7 @@ from dataclasses import replace
 from statistics import median
 from typing import NamedTuple
 
-from replication.check.fit import Fit, fit_formulas
+from replication.check.fit import TableFit, fit_formulas
 from replication.check.six import (
     EXACT,
     REPORT,
@@ -16,7 +16,7 @@ from replication.check.six import (
     impact_velocity,
     start_of_row,
 )
-from replication.check.table import Table
+from replication.check.table import SchemeTable
 
 _ENOUGH = 20
 """So many digits in all rows together tell the three numbers of a force."""
@@ -32,7 +32,7 @@ _RIDGE = 1e-12
 """What is added to each pivot, so that numbers that the rows do not tell stay where they are."""
 
 
-class Row(NamedTuple):
+class ForceRow(NamedTuple):
     """Depth, velocity and deceleration, and the relative error of this that the digits admit."""
 
     x: float
@@ -58,7 +58,7 @@ class ForceOfRows(NamedTuple):
         return (self.G * u * u + self.H) * area
 
 
-def fit_table(table: Table) -> tuple[Table, Fit]:
+def fit_table(table: SchemeTable) -> tuple[SchemeTable, TableFit]:
     """Fit a table: by its formulas, where it has them, or else by its numbers.
 
     Two formulas may share a column, a wrong one that most cells have and a right one that at least
@@ -74,7 +74,7 @@ def fit_table(table: Table) -> tuple[Table, Fit]:
     return table, fitted
 
 
-def _with_rarer_formulas(table: Table) -> Iterator[Table]:
+def _with_rarer_formulas(table: SchemeTable) -> Iterator[SchemeTable]:
     """The table with the second formula of one of its columns in place of the usual one."""
     for line in (*table.lines.values(), *table.helpers):
         for shape, count in line.shapes.most_common(2)[1:]:
@@ -85,11 +85,11 @@ def _with_rarer_formulas(table: Table) -> Iterator[Table]:
                 yield replace(table, lines=lines, helpers=helpers, places={})
 
 
-def fit_numbers(table: Table) -> Fit:
+def fit_numbers(table: SchemeTable) -> TableFit:
     """Fit the rows of a table without formulas; of few rows with few digits only the steps."""
     end, shown = end_of_row(table), "deceleration" in table.lines
-    c, c_error = _constant(list(_growths(table)))
-    e, e_error = _constant(list(_falls(table))) if shown else (c, c_error)
+    c, c_error = _common_ratio(list(_growths(table)))
+    e, e_error = _common_ratio(list(_falls_over_brake(table))) if shown else (c, c_error)
     rows = list(_forces(table))
     sign = -1.0 if shown and rows and median(row.a for row in rows) < 0 else 1.0
     divisor = sign if shown else e
@@ -98,7 +98,7 @@ def fit_numbers(table: Table) -> Fit:
     force = ForceOfRows(math.nan, math.nan, math.nan)
     if rows and math.isfinite(e) and -len(rows) * math.log10(rough) > _ENOUGH:
         force = _best_force(rows, abs(e))
-    time, time_error = _constant(list(_steps(table)))
+    time, time_error = _common_ratio(list(_time_steps(table)))
     V = impact_velocity(table)
     speed = table.lines["velocity_initial" if "velocity_initial" in table.lines else end[0]]
     V_error = speed.rounding(V) / abs(V) if V else math.inf
@@ -106,9 +106,9 @@ def fit_numbers(table: Table) -> Fit:
     ways = {role: REPORT[role] for role in ("depth", "deceleration", "velocity_final")}
     if force.centered:
         ways["deceleration"] = VARIANTS["centered"]
-    return Fit(
+    return TableFit(
         six, time, sign, ways, "deceleration" if shown else end[0],
-        bounded=force.bounded, centered=force.centered, digits=_digits(table), rough=rough,
+        bounded=force.bounded, centered=force.centered, digits=_fewest_digits(table), rough=rough,
         errors=Six(*force.errors, c_error, e_error, V_error), time_error=time_error,
     )  # fmt: skip
 
@@ -116,13 +116,13 @@ def fit_numbers(table: Table) -> Fit:
 # ---- the rows
 
 
-def _speeds(table: Table, k: int) -> tuple[float | None, float | None]:
+def _speeds(table: SchemeTable, k: int) -> tuple[float | None, float | None]:
     """The velocities at the start and at the end of row k."""
     (start, lag), (end, ahead) = start_of_row(table), end_of_row(table)
     return table.number(start, k + lag), table.number(end, k + ahead)
 
 
-def _steps(table: Table) -> Iterator[tuple[float, float]]:
+def _time_steps(table: SchemeTable) -> Iterator[tuple[float, float]]:
     """By how much the time grows, row by row, and the error by the digits."""
     for k in sorted(table.rows):
         now, before = table.number("time", k), table.number("time", k - 1)
@@ -131,7 +131,7 @@ def _steps(table: Table) -> Iterator[tuple[float, float]]:
             yield now - before, line.rounding(now) + line.rounding(before)
 
 
-def _growths(table: Table) -> Iterator[tuple[float, float]]:
+def _growths(table: SchemeTable) -> Iterator[tuple[float, float]]:
     """By how much the depth grows over the velocity, row by row, and the error by the digits."""
     depth, speed = table.lines["depth"], table.lines[start_of_row(table)[0]]
     for k in sorted(table.rows):
@@ -143,7 +143,7 @@ def _growths(table: Table) -> Iterator[tuple[float, float]]:
             yield (x - before) / u, error / abs(u)
 
 
-def _falls(table: Table) -> Iterator[tuple[float, float]]:
+def _falls_over_brake(table: SchemeTable) -> Iterator[tuple[float, float]]:
     """By how much the velocity falls over the deceleration, and the error by the digits."""
     start, end = (table.lines[at(table)[0]] for at in (start_of_row, end_of_row))
     brake = table.lines["deceleration"]
@@ -154,7 +154,7 @@ def _falls(table: Table) -> Iterator[tuple[float, float]]:
             yield (u - w) / a, error / abs(a)
 
 
-def _forces(table: Table) -> Iterator[Row]:
+def _forces(table: SchemeTable) -> Iterator[ForceRow]:
     """The rows by which a force is fitted: of decelerations, or of what the velocity falls by."""
     start, end = (table.lines[at(table)[0]] for at in (start_of_row, end_of_row))
     depth, brake = table.lines["depth"], table.lines.get("deceleration")
@@ -170,17 +170,17 @@ def _forces(table: Table) -> Iterator[Row]:
             error = 0.0 if w is None else start.rounding(u) + end.rounding(w)
         if a:
             error = error / abs(a) + depth.rounding(x) / abs(x) + 2 * start.rounding(u) / abs(u)
-            yield Row(x, u, a, max(EXACT, error))
+            yield ForceRow(x, u, a, max(EXACT, error))
 
 
-def _of_one_scale(rows: Sequence[Row]) -> list[Row]:
+def _of_one_scale(rows: Sequence[ForceRow]) -> list[ForceRow]:
     """The rows; a deceleration far below the largest one counts no more than that shows."""
     least = _SMALL * max((abs(row.a) for row in rows), default=0.0)
     some = [row for row in rows if _LEAST < abs(row.a) < math.inf]
     return [row._replace(error=row.error * max(1.0, least / abs(row.a))) for row in some]
 
 
-def _digits(table: Table) -> float:
+def _fewest_digits(table: SchemeTable) -> float:
     """The relative uncertainty of the numbers as typed, in the column with the fewest digits."""
     worst = 1e-9
     for role, line in table.lines.items():
@@ -190,7 +190,7 @@ def _digits(table: Table) -> float:
     return min(0.05, 4 * worst)
 
 
-def _constant(ratios: Sequence[tuple[float, float]]) -> tuple[float, float]:
+def _common_ratio(ratios: Sequence[tuple[float, float]]) -> tuple[float, float]:
     """The constant that most of some ratios show, and its relative error; NaN if there is none.
 
     Each ratio has an error by its digits; those that are far from the middle are left out.
@@ -214,37 +214,37 @@ def _constant(ratios: Sequence[tuple[float, float]]) -> tuple[float, float]:
 # ---- the force
 
 
-def _best_force(rows: Sequence[Row], e: float) -> ForceOfRows:
+def _best_force(rows: Sequence[ForceRow], e: float) -> ForceOfRows:
     """The force that rows show: the report's, unless another way explains three more rows."""
-    force = _least_squares(rows)
+    force = _fitted_force(rows)
     explained = _explained(rows, force)
     if explained == len(rows) or len(rows) < 8:
         return force
     others = []
-    free = _least_squares(rows, bounded=False)
+    free = _fitted_force(rows, bounded=False)
     if max(row.x for row in rows) > free.D / 2:
         others.append((_explained(rows, free), free))
     central, middle = force, list(rows)
     for _ in range(8):
         middle = [row._replace(u=row.u - e / 2 * central.at(row.x, row.u)) for row in rows]
-        central = _least_squares(middle)
+        central = _fitted_force(middle)
     others.append((_explained(middle, central), central._replace(centered=True)))
     count, best = max(others, key=lambda entry: entry[0])
     better = count >= explained + 3 and count > len(rows) / 2
     return best if better else force
 
 
-def _explained(rows: Sequence[Row], force: ForceOfRows) -> int:
+def _explained(rows: Sequence[ForceRow], force: ForceOfRows) -> int:
     """How many rows a force explains by their digits."""
     return sum(miss <= _FAR for miss in _misses(rows, force))
 
 
-def _misses(rows: Sequence[Row], force: ForceOfRows) -> list[float]:
+def _misses(rows: Sequence[ForceRow], force: ForceOfRows) -> list[float]:
     """The deviation of each row from a force, over what its digits admit."""
     return [abs(force.at(row.x, row.u) - row.a) / (row.error * abs(row.a)) for row in rows]
 
 
-def _least_squares(rows: Sequence[Row], bounded: bool = True) -> ForceOfRows:
+def _fitted_force(rows: Sequence[ForceRow], bounded: bool = True) -> ForceOfRows:
     """G, H and D with a = (G u² + H)(D x - x²), constant beyond D/2 if `bounded`.
 
     Wrong rows spoil a fit. So several starts are tried; the best one misses most rows by little,
@@ -267,10 +267,10 @@ def _least_squares(rows: Sequence[Row], bounded: bool = True) -> ForceOfRows:
         kept = _without_outliers(scaled, best)
         best = _three_numbers(kept, best, bounded) or best
     G, H, D = best.G * A / (U * X) ** 2, best.H * A / X**2, best.D * X
-    return ForceOfRows(G, H, D, _admitted(_without_outliers(scaled, best), best), bounded)
+    return ForceOfRows(G, H, D, _errors_admitted(_without_outliers(scaled, best), best), bounded)
 
 
-def _trials(rows: Sequence[Row], bounded: bool) -> Iterator[ForceOfRows]:
+def _trials(rows: Sequence[ForceRow], bounded: bool) -> Iterator[ForceOfRows]:
     """The forces of all rows, and of parts of them without a wrong one."""
     thirds = [rows[i::3] for i in range(3)] if len(rows) >= 12 else []
     # Where most rows are beyond the radius, only the first ones tell the sphere.
@@ -282,12 +282,12 @@ def _trials(rows: Sequence[Row], bounded: bool) -> Iterator[ForceOfRows]:
         yield from _mostly_beyond(rows)
 
 
-def _loss(rows: Sequence[Row], force: ForceOfRows) -> float:
+def _loss(rows: Sequence[ForceRow], force: ForceOfRows) -> float:
     """How badly a force fits: a row that is far off counts little more than one that is off."""
     return math.fsum(math.log1p(miss * miss) for miss in _misses(rows, force))
 
 
-def _mostly_beyond(rows: Sequence[Row]) -> Iterator[ForceOfRows]:
+def _mostly_beyond(rows: Sequence[ForceRow]) -> Iterator[ForceOfRows]:
     """Forces by which all rows but the first few are beyond the depth D/2.
 
     There a = p u² + q with p = G D²/4 and q = H D²/4. With y = 2 x/D, a row before that has
@@ -302,7 +302,7 @@ def _mostly_beyond(rows: Sequence[Row]) -> Iterator[ForceOfRows]:
                 right[i] += weight * terms[i] * row.a
                 for j in range(2):
                     matrix[i][j] += weight * terms[i] * terms[j]
-        solved = _solved(matrix, right)
+        solved = _linear_solution(matrix, right)
         if solved is None:
             continue
         p, q = solved
@@ -315,7 +315,7 @@ def _mostly_beyond(rows: Sequence[Row]) -> Iterator[ForceOfRows]:
                     yield fitted
 
 
-def _gradient(row: Row, force: ForceOfRows) -> tuple[float, float, float]:
+def _gradient(row: ForceRow, force: ForceOfRows) -> tuple[float, float, float]:
     """The derivatives of the deceleration by G, H and D."""
     inside = row.x < force.D / 2 or not force.bounded
     area = force.D * row.x - row.x * row.x if inside else force.D**2 / 4
@@ -323,7 +323,7 @@ def _gradient(row: Row, force: ForceOfRows) -> tuple[float, float, float]:
     return row.u**2 * area, area, by_D
 
 
-def _normal(rows: Sequence[Row], force: ForceOfRows) -> tuple[list[list[float]], list[float]]:
+def _normal(rows: Sequence[ForceRow], force: ForceOfRows) -> tuple[list[list[float]], list[float]]:
     """The normal equations of a change of G, H and D, each row with the weight of its digits."""
     matrix, right = [[0.0] * 3 for _ in range(3)], [0.0] * 3
     for row in rows:
@@ -339,14 +339,14 @@ def _normal(rows: Sequence[Row], force: ForceOfRows) -> tuple[list[list[float]],
 
 
 def _three_numbers(
-    rows: Sequence[Row], start: ForceOfRows | None, bounded: bool
+    rows: Sequence[ForceRow], start: ForceOfRows | None, bounded: bool
 ) -> ForceOfRows | None:
     """G, H and D of rows by Gauss-Newton from a start; None if they do not tell."""
     if start is None:
         return None
     force = start._replace(bounded=bounded)
     for _ in range(40):
-        change = _solved(*_normal(rows, force))
+        change = _linear_solution(*_normal(rows, force))
         if change is None:
             return None
         force = force._replace(G=force.G + change[0], H=force.H + change[1], D=force.D + change[2])
@@ -357,14 +357,14 @@ def _three_numbers(
     return force
 
 
-def _admitted(rows: Sequence[Row], force: ForceOfRows) -> tuple[float, float, float]:
+def _errors_admitted(rows: Sequence[ForceRow], force: ForceOfRows) -> tuple[float, float, float]:
     """The relative errors of G, H and D that the digits of the rows admit, to first order.
 
     Digits are cut by anything up to half of the last one, not by chance: so errors add up as they
     are.
     """
     matrix, _ = _normal(rows, force)
-    columns = [_solved(matrix, [float(i == j) for i in range(3)]) for j in range(3)]
+    columns = [_linear_solution(matrix, [float(i == j) for i in range(3)]) for j in range(3)]
     if any(column is None for column in columns):
         return (math.inf, math.inf, math.inf)
     errors = []
@@ -378,7 +378,7 @@ def _admitted(rows: Sequence[Row], force: ForceOfRows) -> tuple[float, float, fl
     return (errors[0], errors[1], errors[2])
 
 
-def _without_outliers(rows: list[Row], force: ForceOfRows) -> list[Row]:
+def _without_outliers(rows: list[ForceRow], force: ForceOfRows) -> list[ForceRow]:
     """The rows whose deviation from a force is not far above the usual one, and their digits."""
     off = _misses(rows, force)
     most = max(_FAR, 20 * median(off))
@@ -386,7 +386,7 @@ def _without_outliers(rows: list[Row], force: ForceOfRows) -> list[Row]:
     return kept if len(kept) >= max(4, 0.7 * len(rows)) else rows
 
 
-def _linear(rows: Sequence[Row]) -> ForceOfRows | None:
+def _linear(rows: Sequence[ForceRow]) -> ForceOfRows | None:
     """A first guess: a / x is linear in w = u², w x, 1 and x."""
     matrix = [[0.0] * 4 for _ in range(4)]
     right = [0.0] * 4
@@ -397,7 +397,7 @@ def _linear(rows: Sequence[Row]) -> ForceOfRows | None:
             right[i] += terms[i] * row.a / row.x
             for j in range(4):
                 matrix[i][j] += terms[i] * terms[j]
-    solved = _solved(matrix, right)
+    solved = _linear_solution(matrix, right)
     if solved is None:
         return None
     GD, G, HD, H = solved[0], -solved[1], solved[2], -solved[3]
@@ -406,7 +406,7 @@ def _linear(rows: Sequence[Row]) -> ForceOfRows | None:
     return ForceOfRows(GD / D, HD / D, D)
 
 
-def _solved(matrix: list[list[float]], right: list[float]) -> list[float] | None:
+def _linear_solution(matrix: list[list[float]], right: list[float]) -> list[float] | None:
     """The solution of a few linear equations by elimination; None if they are singular."""
     size = len(right)
     rows = [[*row, value] for row, value in zip(matrix, right, strict=True)]

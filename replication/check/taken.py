@@ -6,10 +6,10 @@ from functools import cache
 
 from reference.ledger import claims_of_case, load
 from replication.check.examination import AnotherModelError, Examination, near
-from replication.check.fit import Fit
+from replication.check.fit import TableFit
 from replication.check.roles import Input, Inputs
 from replication.check.six import Six, start_of_row
-from replication.check.words import INPUTS, digits_of, quantity, times_too, title
+from replication.check.words import INPUTS, digits_of, times_too, title, with_si_unit
 
 OTHER_STEP = 5e-10
 """The report's second time step [s]; the first one is among its printed inputs."""
@@ -54,7 +54,7 @@ def report_six(resistance: float, step: float) -> Six:
     return Six(G, H, report["diameter"][0], step, step, report["velocity"][0])
 
 
-def report_case(six: Six | None, fitted: Fit) -> str | None:
+def report_case(six: Six | None, fitted: TableFit) -> str | None:
     """The report's case that six numbers in SI units belong to, whatever the step; None if none.
 
     They may differ by what the digits of the rows admit; what these do not tell is no case.
@@ -79,7 +79,7 @@ def take_inputs(exam: Examination, inputs: Inputs) -> None:
             continue
         label, unit = inputs.label(source)
         how = "formulas" if source.cell is None else inputs.how.get(role, "response")
-        value = _si(source.value, inputs.powers.get(source.item, 0.0))
+        value = _in_si(source.value, inputs.powers.get(source.item, 0.0))
         exam.inputs[role] = Input(role, value, source.cell, how, label, unit, source.value)
     six = six_in_si(exam)
     for role, value in (("step", six.c), ("velocity", six.V), ("radius", six.D / 2)):
@@ -99,7 +99,7 @@ def take_inputs(exam: Examination, inputs: Inputs) -> None:
     _solve_rest(exam, six)
 
 
-def _si(value: float, power: float) -> float:
+def _in_si(value: float, power: float) -> float:
     """A number in SI units, rounded once where the unit is a power of ten."""
     if power == round(power) and math.isfinite(value):
         return float(Fraction(repr(value)) * Fraction(10) ** round(power))
@@ -182,7 +182,7 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
     It is one if all others are the report's, and this one is it but for a power of ten.
     """
     report = report_inputs()
-    _swapped(exam)
+    _swapped_labels(exam)
     typed = [
         role for role, entry in exam.inputs.items()
         if entry.place and role in report and role != "stop_velocity"
@@ -196,19 +196,18 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         if entry.place in accused:
             continue
         known = (*report[role], OTHER_STEP) if role == "step" else report[role]
-        off = next(filter(None, (_power_off(entry, value) for value in known)), 0)
+        off = next(filter(None, (_input_power_off(entry, value) for value in known)), 0)
         is_slip = off % 3 == 0 or off % 2 == 0  # a unit ten times another one is unusual
         alone = len(others) == 1 and len(typed) - 1 >= _ALIKE
         weak = role == "flow_stress" and entry.si < _NO_BETA and len(typed) - len(others) >= _ALIKE
         if off and is_slip and (alone or weak):
-            text = (
-                f"the formulas take {title(role)} as {quantity(entry.si, role)}, {times_too(off)}"
-            )
+            taken = with_si_unit(entry.si, role)
+            text = f"the formulas take {title(role)} as {taken}, {times_too(off)}"
             exam.add("unit", [entry.place], entry.value / 10.0**off, text)
             exam.corrected = (role, entry.si / 10.0**off)
             continue
-        shown = " or ".join(quantity(value, role) for value in report[role])
-        text = f"{title(role)} is {quantity(entry.si, role)}, in the report {shown}"
+        shown = " or ".join(with_si_unit(value, role) for value in report[role])
+        text = f"{title(role)} is {with_si_unit(entry.si, role)}, in the report {shown}"
         exam.add("other input", [entry.place], None, text)
 
 
@@ -219,7 +218,7 @@ _PARTS = {
 """The inputs from which formulas compute others."""
 
 
-def _swapped(exam: Examination) -> None:
+def _swapped_labels(exam: Examination) -> None:
     """Report labels of beta and flow stress that name each other's number.
 
     A beta, a ratio of stresses, is no thousand, and no flow stress is below a thousand Pa.
@@ -238,7 +237,7 @@ def _of_numbers(exam: Examination, role: str) -> bool:
     return all(part.place is None for part in parts)
 
 
-def _power_off(entry: Input, value: float) -> int:
+def _input_power_off(entry: Input, value: float) -> int:
     """By which power of ten an input is not a value of the report; 0 if it is another number.
 
     A mass, which the report does not print, may be typed with few digits.

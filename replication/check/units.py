@@ -11,11 +11,11 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 from reference.units import same_dimension, to_si
-from replication.check.fit import Fit
-from replication.check.responses import Item, Source, unit_power
+from replication.check.fit import TableFit
+from replication.check.responses import Influence, Item, unit_power
 from replication.check.roles import Inputs
 from replication.check.six import VARIANTS, start_of_row
-from replication.check.table import Table
+from replication.check.table import SchemeTable
 from replication.check.words import COLUMNS, INPUTS
 
 _ALIKE = 1e-9
@@ -29,7 +29,7 @@ _MOST_CHANGES = 6
 
 
 @dataclass(frozen=True)
-class Quantity:
+class Magnitude:
     """A positive number times powers of units that may be unknown: the number's logarithm.
 
     `error` is how far that may be off by the digits of what it follows from.
@@ -39,48 +39,48 @@ class Quantity:
     units: Mapping[Item, float] = field(default_factory=dict)
     error: float = 0.0
 
-    def __mul__(self, other: "Quantity") -> "Quantity":
+    def __mul__(self, other: "Magnitude") -> "Magnitude":
         items = self.units.keys() | other.units.keys()
         powers = {i: self.units.get(i, 0.0) + other.units.get(i, 0.0) for i in items}
         error = self.error + other.error
-        return Quantity(self.log + other.log, {i: n for i, n in powers.items() if n}, error)
+        return Magnitude(self.log + other.log, {i: n for i, n in powers.items() if n}, error)
 
-    def __pow__(self, power: float) -> "Quantity":
+    def __pow__(self, power: float) -> "Magnitude":
         powers = {i: n * power for i, n in self.units.items()}
-        return Quantity(self.log * power, powers, self.error * abs(power))
+        return Magnitude(self.log * power, powers, self.error * abs(power))
 
-    def __truediv__(self, other: "Quantity") -> "Quantity":
+    def __truediv__(self, other: "Magnitude") -> "Magnitude":
         return self * other**-1
 
 
-def _number(value: float | None, error: float = 0.0) -> Quantity:
+def _pure_number(value: float | None, error: float = 0.0) -> Magnitude:
     """A number without a unit and its relative error; its logarithm is NaN if it has none.
 
     A number that may be wrong by a good part of itself is not told.
     """
     told = value is not None and 0 < value < math.inf and error < _TOLD
     log = math.log10(value) if told and value is not None else math.nan
-    return Quantity(log, error=math.log10(1 + error) if told else math.inf)
+    return Magnitude(log, error=math.log10(1 + error) if told else math.inf)
 
 
-def _unit(item: Item) -> Quantity:
-    return Quantity(0.0, {item: 1.0})
+def _unit_of(item: Item) -> Magnitude:
+    return Magnitude(0.0, {item: 1.0})
 
 
-def _of(source: Source) -> Quantity:
+def _of_source(source: Influence) -> Magnitude:
     """The quantity in a cell, or typed into a formula."""
-    return _number(source.value) * _unit(source.item)
+    return _pure_number(source.value) * _unit_of(source.item)
 
 
 @dataclass(frozen=True)
-class Equation:
+class Balance:
     """Two sides that should be equal: the one over the other, with the units that it contains.
 
     `slack` is how far the logarithm of their ratio may be from 0, or from a power of ten.
     """
 
     name: str
-    ratio: Quantity
+    ratio: Magnitude
     slack: float
 
     @property
@@ -97,40 +97,42 @@ class Equation:
         return abs(self.residual(powers)) < self.slack
 
 
-def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
+def equations(table: SchemeTable, fitted: TableFit, inputs: Inputs) -> list[Balance]:
     """The equations between the six numbers and the cells that can be written down."""
     six, errors = fitted.six, fitted.errors
     X, W, A, T = (
-        _unit(("column", role))
+        _unit_of(("column", role))
         for role in ("depth", start_of_row(table)[0], "deceleration", "time")
     )
     if "deceleration" not in table.lines:
         A = W**2 / X
     by_time = fitted.ways.get("depth") is VARIANTS["velocity times time"]
     step = math.nan if by_time else six.c  # then the depth grows by no step
-    c, e = _number(step, errors.c) * X / W, _number(abs(six.e), errors.e) * W / A
-    t = _number(fitted.time, fitted.time_error) * T
+    c, e = _pure_number(step, errors.c) * X / W, _pure_number(abs(six.e), errors.e) * W / A
+    t = _pure_number(fitted.time, fitted.time_error) * T
     sides = {"c = e": (c, e)} if "deceleration" in table.lines else {}
     if {"velocity_initial", "velocity_final"} <= table.lines.keys():
-        ends = (_unit(("column", role)) for role in ("velocity_initial", "velocity_final"))
+        ends = (_unit_of(("column", role)) for role in ("velocity_initial", "velocity_final"))
         sides["v = v"] = (next(ends), next(ends))
     sides |= _of_step(table, inputs, c, e, t)
     velocity = inputs.cells.get("velocity")
     if velocity is not None and velocity.powers:
-        sides["V"] = (_number(six.V, errors.V) * W, _of(velocity))
-    G = _number(six.G, errors.G) * A / (W * X) ** 2
-    H = _number(six.H, errors.H) * A / X**2
-    sides |= _of_force(inputs, _number(six.D, errors.D) * X, G, H)
+        sides["V"] = (_pure_number(six.V, errors.V) * W, _of_source(velocity))
+    G = _pure_number(six.G, errors.G) * A / (W * X) ** 2
+    H = _pure_number(six.H, errors.H) * A / X**2
+    sides |= _of_force(inputs, _pure_number(six.D, errors.D) * X, G, H)
     least = _ALIKE if fitted.probe is not None else _VAGUE
     ratios = {name: left / right for name, (left, right) in sides.items()}
-    found = [Equation(name, ratio, max(least, ratio.error)) for name, ratio in ratios.items()]
+    found = [Balance(name, ratio, max(least, ratio.error)) for name, ratio in ratios.items()]
     return [eq for eq in found if math.isfinite(eq.ratio.log + eq.slack)]
 
 
-_Sides = dict[str, tuple[Quantity, Quantity]]
+_Sides = dict[str, tuple[Magnitude, Magnitude]]
 
 
-def _of_step(table: Table, inputs: Inputs, c: Quantity, e: Quantity, t: Quantity) -> _Sides:
+def _of_step(
+    table: SchemeTable, inputs: Inputs, c: Magnitude, e: Magnitude, t: Magnitude
+) -> _Sides:
     """The equations of the time step; a cell that a column does not respond to is left out."""
     step = inputs.cells.get("step") or inputs.derived.get("step")
     if step is None or (inputs.how.get("step") == "unread" and step.powers):
@@ -139,62 +141,62 @@ def _of_step(table: Table, inputs: Inputs, c: Quantity, e: Quantity, t: Quantity
     if "deceleration" not in table.lines:
         del sides["e = dt"]
     by_cell = {
-        name: (side, _of(step))
+        name: (side, _of_source(step))
         for name, (symbol, side) in sides.items()
         if abs(step.powers.get(symbol, 1.0) - 1) < 0.02
     }
     return by_cell if "t = dt" in by_cell else {**by_cell, "t = c": (t, c)}
 
 
-def _of_force(inputs: Inputs, D: Quantity, G: Quantity, H: Quantity) -> _Sides:
+def _of_force(inputs: Inputs, D: Magnitude, G: Magnitude, H: Magnitude) -> _Sides:
     """The equations of the sphere and its mass, then those of the target."""
     cells, derived, sides = inputs.cells, inputs.derived, _Sides()
-    R = _of(cells["radius"]) if "radius" in cells else None
+    R = _of_source(cells["radius"]) if "radius" in cells else None
     diameter = cells.get("diameter") or derived.get("diameter")
     if diameter is not None:
-        sides["D"] = (D, _of(diameter))
+        sides["D"] = (D, _of_source(diameter))
         if R is not None:
-            sides["diameter"] = (_of(diameter), _number(2.0) * R)
+            sides["diameter"] = (_of_source(diameter), _pure_number(2.0) * R)
     if R is None and diameter is not None and "radius" in derived:
-        sides["radius"] = (_of(derived["radius"]), _of(diameter) / _number(2.0))
-        sides["D"] = (D, _number(2.0) * _of(derived["radius"]))
-        R = _of(derived["radius"])
+        sides["radius"] = (_of_source(derived["radius"]), _of_source(diameter) / _pure_number(2.0))
+        sides["D"] = (D, _pure_number(2.0) * _of_source(derived["radius"]))
+        R = _of_source(derived["radius"])
     elif R is not None and "diameter" not in sides:
-        sides["D"] = (D, _number(2.0) * R)
-    R = R or (_of(diameter) if diameter is not None else D) / _number(2.0)
+        sides["D"] = (D, _pure_number(2.0) * R)
+    R = R or (_of_source(diameter) if diameter is not None else D) / _pure_number(2.0)
     M, mass = None, cells.get("mass") or derived.get("mass")
     if "particle_density" in cells:
-        M = _number(4 / 3 * math.pi) * R**3 * _of(cells["particle_density"])
+        M = _pure_number(4 / 3 * math.pi) * R**3 * _of_source(cells["particle_density"])
     if mass is not None:
         if M is not None:
-            sides["mass"] = (_of(mass), M)
-        M = _of(mass)
+            sides["mass"] = (_of_source(mass), M)
+        M = _of_source(mass)
     return sides | _of_target(inputs, G, H, M)
 
 
-def _of_target(inputs: Inputs, G: Quantity, H: Quantity, M: Quantity | None) -> _Sides:
+def _of_target(inputs: Inputs, G: Magnitude, H: Magnitude, M: Magnitude | None) -> _Sides:
     """The equations of the target's density and its resistance; M is the mass, if it is known."""
     cells, derived, sides = inputs.cells, inputs.derived, _Sides()
     target = cells.get("target_density") or derived.get("target_density")
     if target is not None and M is not None:
-        sides["G"] = (_number(2 / math.pi) * G * M, _of(target))
+        sides["G"] = (_pure_number(2 / math.pi) * G * M, _of_source(target))
     strength, resistance = None, derived.get("resistance") or cells.get("resistance")
     beta = cells.get("beta") or derived.get("beta")
     stress = cells.get("flow_stress") or derived.get("flow_stress")
     if beta is not None and stress is not None:
-        strength = _number(beta.value) * _of(stress)
+        strength = _pure_number(beta.value) * _of_source(stress)
         if resistance is not None:
-            sides["resistance"] = (_of(resistance), strength)
-    strength = _of(resistance) if resistance is not None else strength
+            sides["resistance"] = (_of_source(resistance), strength)
+    strength = _of_source(resistance) if resistance is not None else strength
     if strength is not None and M is not None:
-        sides["H"] = (H * M / _number(math.pi), strength)
+        sides["H"] = (H * M / _pure_number(math.pi), strength)
     return sides
 
 
 # ---- the units by which they hold
 
 
-def state_units(table: Table, inputs: Inputs) -> None:
+def state_units(table: SchemeTable, inputs: Inputs) -> None:
     """Take the units that heads and labels state, if they measure the right quantity."""
     for role, line in table.lines.items():
         if line.unit and line.unit != "1" and same_dimension(line.unit, COLUMNS[role]):
@@ -209,7 +211,7 @@ def state_units(table: Table, inputs: Inputs) -> None:
 
 
 def right_units(
-    found: Sequence[Equation], inputs: Inputs
+    found: Sequence[Balance], inputs: Inputs
 ) -> tuple[dict[Item, float], list[Item]] | None:
     """Units by which all equations hold, and the stated ones that had to be changed.
 
@@ -219,12 +221,12 @@ def right_units(
     items = list(dict.fromkeys(item for eq in found for item in eq.terms))
     texts = {item for item in items if item in inputs.stated and item in inputs.powers}
     free = [item for item in items if item not in inputs.stated]
-    if (result := _solve(found, inputs.powers, free)) is not None:
+    if (result := _least_changes(found, inputs.powers, free)) is not None:
         return result, []
     mends: list[tuple[bool, bool, int, Item, dict[Item, float]]] = []
     for item in items:
         if item in texts:
-            changed = _solve(found, inputs.powers, [*free, item])
+            changed = _least_changes(found, inputs.powers, [*free, item])
             if changed is not None:
                 power = round(changed.get(item, 0.0) - inputs.powers.get(item, 0.0))
                 # What is not stated surely is changed first; units mostly lie a thousand apart. A
@@ -237,8 +239,8 @@ def right_units(
     return changed, [] if same else [item]
 
 
-def _solve(
-    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item]
+def _least_changes(
+    found: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item]
 ) -> dict[Item, float] | None:
     """Change as few free units as possible, by powers of ten, so that all equations hold."""
     left, later = _set_apart(found, powers, free)
@@ -255,12 +257,12 @@ def _solve(
     return None
 
 
-_Own = list[tuple[Equation, list[Item]]]
+_Own = list[tuple[Balance, list[Item]]]
 
 
 def _set_apart(
-    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item]
-) -> tuple[list[Equation], _Own]:
+    found: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item]
+) -> tuple[list[Balance], _Own]:
     """Set equations apart that have a free unit of their own: at the end it makes them hold.
 
     One that stands there squared or cubed does not: its powers of ten are even, or threes.
@@ -283,7 +285,7 @@ def _set_apart(
     return left, later
 
 
-def _mend_own(eq: Equation, own: Sequence[Item], result: dict[Item, float]) -> bool:
+def _mend_own(eq: Balance, own: Sequence[Item], result: dict[Item, float]) -> bool:
     """Make an equation hold by one of its own units; whether that is possible."""
     if eq.holds(result):
         return True
@@ -297,7 +299,7 @@ def _mend_own(eq: Equation, own: Sequence[Item], result: dict[Item, float]) -> b
 
 
 def _changed(
-    left: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], most: int
+    left: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item], most: int
 ) -> dict[Item, float] | None:
     """Change so many free units, so that the equations hold; None if that cannot be done."""
     broken = [eq for eq in left if not eq.holds(powers)]
@@ -312,7 +314,7 @@ def _changed(
 
 
 def _whole_powers(
-    left: Sequence[Equation], powers: Mapping[Item, float], some: Sequence[Item]
+    left: Sequence[Balance], powers: Mapping[Item, float], some: Sequence[Item]
 ) -> dict[Item, float]:
     """The powers of ten of some units by which linear equations hold; empty if they do not tell."""
     rows = [
