@@ -27,6 +27,9 @@ NOT_AVAILABLE = "#N/A"
 ROW_HEIGHT = 13.5
 """Height of a row in points, for type of 10 points."""
 
+YES_OR_NO = '"yes";;"no"'
+"""The number format that shows 1 as yes, and 0 as no."""
+
 HOME = "Overview"
 """The first sheet; every other sheet has a link back to it."""
 
@@ -241,6 +244,16 @@ class SheetPlan:
         self.claims |= dict.fromkeys(computed, f"{self.columns[2]}{self.row}")
         value = formula(name, expression, named=True, unit=unit, shown=shown, like=like)
         self._line(symbol, meaning, value, claim or beside, source)
+
+    def state(self, name: str, meaning: str, expression: str, words: str) -> None:
+        """Add a line for a state that holds (1) or not (0), and what is said while it holds.
+
+        The two cells are named `is_` and `says_`, and then `name`. The chain of all cells that say
+        something is the message of the sheet; only one of them is not blank.
+        """
+        says = formula(f"says_{name}", f'=IF(is_{name}=1,"{words}","")', "text", named=True)
+        self.cells[f"{self.columns[5]}{self.row}"] = says
+        self.line(f"is_{name}", "", meaning, expression, shown=YES_OR_NO)
 
     def repeat(
         self, key: str, symbol: str, meaning: str, name: str, unit: str = "1", *,
