@@ -24,7 +24,7 @@ NOT_COMPUTED = "not computed"
 NOT_AVAILABLE = "#N/A"
 """The value of a cell that depends on an input that cannot be used, or on rows that are missing."""
 
-ROW_HEIGHT = 13.5
+ROW_HEIGHT = 12.75
 """Height of a row in points, for type of 10 points."""
 
 YES_OR_NO = '"yes";;"no"'
@@ -153,8 +153,8 @@ class SheetPlan:
     about: what the sheet shows, for `Overview`. row: where the next cells go. columns: those of
     symbol, meaning, value, unit, printed text and source in a `line`. headed: the first column that
     scrolls, and the first and last row of heads; heads do not scroll, and are repeated on every
-    printed page. page_break: the last row of page 1. portrait, one_page: how it is printed; the
-    columns always fit the width of a page. filtered: the cells of a table that has a filter.
+    printed page. portrait, one_page: how it is printed; the columns always fit the width of a
+    page. filtered: the cells of a table that has a filter.
     claims: the address of the cell that computes a claim, by the claim's id.
     """
 
@@ -169,7 +169,6 @@ class SheetPlan:
     rules: list[Rule] = field(default_factory=list)
     chart: Chart | None = None
     print_area: str = ""
-    page_break: int | None = None
     portrait: bool = False
     one_page: bool = False
     filtered: str = ""

@@ -44,8 +44,8 @@ class AuditResult:
 
 _HEAD_ROW = 11
 _HEADS = (
-    ("Claim", 24), ("What", 50), ("Printed", 15), ("Unit", 8), ("Computed", 13),
-    ("Live verdict", 14), ("The audit’s verdict", 25), ("From", 11), ("To", 11),
+    ("Claim", 24), ("What", 46), ("Printed", 15), ("Unit", 8), ("Computed", 13),
+    ("Live verdict", 14), ("The audit’s verdict", 24), ("From", 11), ("To", 11),
     ("Number", 13), ("Above From", 12), ("Below To", 12), ("Prints so?", 15), ("Where", 34),
     ("Computed in", 20), ("Explanation", 60),
 )  # fmt: skip

@@ -10,15 +10,15 @@ from typing import NamedTuple
 
 from reference.ledger import Ledger
 from reference.scheme import Scheme
-from spreadsheets.plan import YES_OR_NO, Cell, Rule, SheetPlan, formula
+from spreadsheets.plan import YES_OR_NO, Rule, SheetPlan, formula
 from spreadsheets.sheets import messages
 from spreadsheets.sheets.formulas import cap_angle, depth, log1p
 
 FIRST_ROW = 10
 """The row of the sheet that holds row 0 of the scheme, the impact itself."""
 
-_ROWS_OF_A_PAGE = 81
-"""The most rows that are printed on a single page, in type of 6.5 points."""
+_LAST_PRINTED = 82
+"""The last row of the sheet that is printed: a single page, in type of 7 points."""
 
 MAX_ROWS = 20_000
 """The most rows of a sheet; to write them takes half a minute and gigabytes of memory."""
@@ -221,10 +221,11 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     if case.coarse:
         about = "The same with the time step of the comparison, and what that changes (section 3)"
     sheet = SheetPlan(ledger=ledger, name=case.name, about=about, columns="IJKLMN")
-    sheet.widths = {"A": 5, "B": 9, "G": 9, "I": 8, "J": 29, "K": 12, "L": 7, "M": 21, "N": 26}
+    sheet.widths = {"A": 4.5, "B": 8.5, "G": 8, "I": 8, "J": 29, "K": 11, "L": 7, "N": 26}
+    sheet.wide("M", 20 if case.coarse else 14)
     sheet.wide("CF", 10)
-    sheet.wide("DE", 10.5)
-    sheet.wide("H", 13 if case.scheme is Scheme.CENTERED else 3)
+    sheet.wide("DE", 10)
+    sheet.wide("H", 11 if case.scheme is Scheme.CENTERED else 3)
     sheet.begin("Rigid-body penetration, row by row")
     _label(sheet, case)
     s = case.suffix
@@ -238,9 +239,9 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         width=160,
     )
     sheet.say(
-        "The run stops with the first row below v_stop; printed pages end with the last row as"
-        f" written. {case.rows} rows are prepared; coldspray workbook prepares N, up to"
-        f" {MAX_ROWS}, with the same options and --rows N.",
+        f"The run stops with the first row below v_stop. Rows 0 to {_LAST_PRINTED - FIRST_ROW} are"
+        f" printed, on one page with the results. {case.rows} rows are prepared; coldspray workbook"
+        f" prepares N, up to {MAX_ROWS}, with the same options and --rows N.",
         width=160,
     )
     top = sheet.row = FIRST_ROW - 2
@@ -256,9 +257,9 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     if case.coarse:
         _comparison(sheet, case)
     sheet.headed = "A", top, top + 1
-    last = max(FIRST_ROW + case.steps, sheet.row - 1)
-    sheet.print_area, sheet.portrait = f"A1:M{last}", True
-    sheet.one_page = last <= _ROWS_OF_A_PAGE
+    # Not every program follows a print area that is a formula. This one needs not follow the run.
+    sheet.print_area = f"A1:M{_LAST_PRINTED}"
+    sheet.portrait = sheet.one_page = True
     used = f"A{FIRST_ROW}:{last_column}{FIRST_ROW + case.rows}"
     sheet.rules = [
         Rule(used, f"=ISNUMBER($A{FIRST_ROW})", "ruled"),
@@ -322,6 +323,11 @@ def _results(sheet: SheetPlan, case: CaseSheet) -> None:
         f"rows_used{s}", "", "rows in use, with row 0", f"=IF(COUNT({a})>0,COUNT({a}),NA())",
         shown="0",
     )  # fmt: skip
+    # Without a stop, what is said of a whole run is not available.
+    of_a_run = [name for name in messages.RUN_SAYS if name not in ("both", "rows")]
+    chain = "&".join(f"says_{name}{s}" for name in of_a_run)
+    says = formula(f"says_run{s}", f'=IF(stopped{s}=1,{chain},"")', "text", named=True)
+    sheet.cells[f"N{sheet.row}"] = says
     sheet.line(
         f"stopped{s}", "", "the rows reach the stop",
         f"=IF(INDEX({f},rows_used{s})<v_stop,1,0)", shown=YES_OR_NO,
@@ -462,7 +468,7 @@ def _state(sheet: SheetPlan, case: CaseSheet) -> None:
 def _said(sheet: SheetPlan, case: CaseSheet) -> None:
     """Add the states of which one holds, each with what A3 says of it.
 
-    Without a stop, only the first two have values.
+    Without a stop, only the first two have values. The smaller of two states is 1 if both hold.
     """
     s = case.suffix
     sheet.row += 1
@@ -471,22 +477,17 @@ def _said(sheet: SheetPlan, case: CaseSheet) -> None:
     def state(name: str, meaning: str, expression: str) -> None:
         sheet.state(f"{name}{s}", meaning, expression, messages.RUN_SAYS[name])
 
-    state("both", "out of rows; step too long", f"=IF(stopped{s}=0,too_long{s},0)")
+    state("both", "out of rows; step too long", f"=MIN(1-stopped{s},too_long{s})")
     state("rows", "out of rows", f"=1-stopped{s}-is_both{s}")
     state("no_steps", "no step is taken", f"=IF(steps{s}=0,1,0)")
     state("one_step", "doubtful: a single step", f"=IF(steps{s}=1,1-sound{s},0)")
     more_steps = f"1-sound{s}-is_no_steps{s}-is_one_step{s}"
-    state("coarse", "doubtful: time step too long", f"=IF(too_long{s}=1,{more_steps},0)")
+    state("coarse", "doubtful: time step too long", f"=MIN({more_steps},too_long{s})")
     state("off", "doubtful: depth is off", f"={more_steps}-is_coarse{s}")
-    state("reversed", "sound; velocity reversed", f"=IF(reverses{s}=1,sound{s},0)")
+    state("reversed", "sound; velocity reversed", f"=MIN(sound{s},reverses{s})")
     not_reversed = f"sound{s}-is_reversed{s}"
-    state("early", "sound; ends before rest", f"=IF(early{s}=1,{not_reversed},0)")
+    state("early", "sound; ends before rest", f"=MIN({not_reversed},early{s})")
     state("done", "sound; complete", f"={not_reversed}-is_early{s}")
-    # What is said of a run that stops is not available without a stop.
-    of_a_run = [name for name in messages.RUN_SAYS if name not in ("both", "rows")]
-    chain = "&".join(f"says_{name}{s}" for name in of_a_run)
-    says = formula(f"says_run{s}", f'=IF(stopped{s}=1,{chain},"")', "text", named=True)
-    sheet.put(J=Cell("if the rows reach the stop"), N=says)
 
 
 def _renamed(sheet: SheetPlan, case: CaseSheet) -> None:

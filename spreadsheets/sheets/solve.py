@@ -190,7 +190,7 @@ def _said(sheet: SheetPlan) -> None:
         "solved", "", "a resistance gives this depth", "=IF(L_meas<L_most,1,0)", shown=YES_OR_NO,
         source="L below L_most",
     )  # fmt: skip
-    for_depth, for_ratio = "=IF(by_ratio=1,0,solved)", "=IF(by_ratio=1,solved,0)"
-    sheet.state("for_depth", "solved for the depth", for_depth, messages.BY_DEPTH)
-    sheet.state("for_ratio", "solved for X/R", for_ratio, messages.BY_RATIO)
+    # The smaller of two states is 1 if both hold.
+    sheet.state("for_ratio", "solved for X/R", "=MIN(solved,by_ratio)", messages.BY_RATIO)
+    sheet.state("for_depth", "solved for the depth", "=solved-is_for_ratio", messages.BY_DEPTH)
     sheet.state("too_deep", "too deep for any resistance", "=1-solved", messages.TOO_DEEP)

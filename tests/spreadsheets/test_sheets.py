@@ -15,6 +15,7 @@ from replication.audit.record import Record
 from replication.cases import BETA_5
 from replication.report.document import claim_document
 from replication.workbook import Workbook
+from spreadsheets.emit import MARGINS
 from spreadsheets.plan import ROW_HEIGHT, Cell, SheetPlan
 from spreadsheets.sheets import cells_of_claims
 from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE
@@ -466,18 +467,20 @@ def width(page: SheetPlan, first: str, last: str) -> int:
     return sum(int(page.widths.get(column, 8.43) * 7 + 5) for column in columns)
 
 
-def test_printed_type_is_at_least_6_and_a_half_points(book: Workbook) -> None:
+def test_printed_type_is_at_least_7_points(book: Workbook) -> None:
     """Of 10 points, scaled so that columns, and the rows if there is one page, fit letter paper.
 
-    Margins are 0.3 inches at the sides, and 1.1 inches in height. A pixel is 1/96 inch.
+    A pixel is 1/96 inch; the row of the title is higher.
     """
+    beside, above = MARGINS["left"] + MARGINS["right"], MARGINS["top"] + MARGINS["bottom"]
     for page in book.plan.sheets:
         area = page.print_area or " ".join(page.cells)
         columns, rows = re.findall("[A-Z]+", area), [*map(int, re.findall(r"\d+", area))]
         across, down = (8.5, 11) if page.portrait else (11, 8.5)
-        assert 10 * (across - 0.6) * 96 / width(page, min(columns), max(columns)) >= 6.5, page.name
+        assert 10 * (across - beside) * 96 / width(page, min(columns), max(columns)) >= 7, page.name
         if page.one_page:
-            assert 10 * (down - 1.1) * 72 / (max(rows) * ROW_HEIGHT) >= 6.5, page.name
+            height = 18 + (max(rows) - 1) * ROW_HEIGHT
+            assert 10 * (down - above) * 72 / height >= 7, page.name
 
 
 @pytest.mark.parametrize(
