@@ -221,8 +221,8 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     if case.coarse:
         about = "The same with the time step of the comparison, and what that changes (section 3)"
     sheet = SheetPlan(ledger=ledger, name=case.name, about=about, columns="IJKLMN")
-    sheet.widths = {"A": 4.5, "B": 8.5, "G": 8, "I": 8, "J": 29, "K": 11, "L": 7, "N": 26}
-    sheet.wide("M", 20 if case.coarse else 14)
+    sheet.widths = {"A": 4.5, "B": 8.5, "G": 8, "I": 8, "J": 29, "K": 10.5, "L": 7, "N": 26}
+    sheet.wide("M", 21 if case.coarse else 14)
     sheet.wide("CF", 10)
     sheet.wide("DE", 10)
     sheet.wide("H", 11 if case.scheme is Scheme.CENTERED else 3)

@@ -177,7 +177,7 @@ pi, so it stands in a cell. The last three are limits beyond which a run is not 
 command warns beyond the same ones."""
 
 _HEADS = (
-    ("Symbol", 8), ("Quantity", 40), ("Type here", 12), ("Unit", 7), ("Check", 10), ("In use", 13),
+    ("Symbol", 8), ("Quantity", 41), ("Type here", 12), ("Unit", 7), ("Check", 10), ("In use", 13),
     ("Unit", 7), ("The report’s", 11), ("It prints", 12), ("Where", 22), ("Least", 10),
     ("Greatest", 12), ("Name", 14), ("Number typed", 14), ("Taken", 14), ("Below least?", 14),
     ("Above most?", 14), ("Fault", 14), ("Accepted", 14), ("Whose", 14),
