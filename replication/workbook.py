@@ -281,14 +281,12 @@ def _case_values(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree
         "renamed": None if page.resistance_given else "",
     }
     quantities = {"label": page.label, **_results(sheet, si), **_exact(impact), **_state(sheet)}
-    renamed = False
     if page.coarse:
-        longer = impact.step > si["dt_s"]
-        quantities["longer"] = longer
+        quantities["longer"] = longer = impact.step > si["dt_s"]
         quantities |= _state_and_words("finer", not longer, messages.NOT_COARSER)
     if not page.resistance_given:
-        quantities["other_beta"] = renamed
-        quantities |= _state_and_words("renamed", renamed, messages.KEEPS_NAME)
+        quantities["other_beta"] = False
+        quantities |= _state_and_words("renamed", False, messages.KEEPS_NAME)
     named = {f"{name}{page.suffix}": value for name, value in quantities.items()}
     return {page.part: repeated, **named}
 
@@ -700,29 +698,31 @@ def _row_columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]
 
 
 def _judged(value: Value, interval: Interval) -> Tree:
-    """Return the live verdict on a double, and what it rests on.
-
-    The ends of the interval are taken as doubles, too. Without a number nothing is compared.
-    """
-    lower, upper = interval.lower, interval.upper
-    number = Fraction(value) if isinstance(value, float) else Fraction(0)
-    conditions: Tree = {}
-    if interval.is_point:
-        # To nine digits, since no double is exactly 2/3.
-        (exact, _) = interval.ends
-        conditions["above"] = abs(number - exact) * 10**9 <= abs(exact)
-    else:
-        low, high = (None if end is None else Fraction(float(end)) for end in (lower, upper))
-        if low is not None:
-            conditions["above"] = Interval(low, None, interval.lower_closed).contains(number)
-        if high is not None:
-            at_most = Interval(None, high, upper_closed=interval.upper_closed)
-            conditions["below"] = at_most.contains(number)
+    """Return the live verdict on a double, and what it rests on, which is #N/A without a number."""
+    conditions = _compared(Fraction(value if isinstance(value, float) else 0.0), interval)
     if not isinstance(value, float):
         not_available = dict.fromkeys(("number", *conditions, "prints_so"), NOT_AVAILABLE)
         return {"verdict": NOT_COMPUTED, **not_available}
     words = AS_PRINTED if all(conditions.values()) else OTHERWISE
     return {"verdict": words, "prints_so": words, "number": value, **conditions}
+
+
+def _compared(number: Fraction, interval: Interval) -> dict[str, bool]:
+    """Return whether a number keeps to each end of an interval, by end; ends are as doubles."""
+    conditions = {}
+    if interval.is_point:
+        # To nine digits, since no double is exactly 2/3.
+        (exact, _) = interval.ends
+        conditions["above"] = abs(number - exact) * 10**9 <= abs(exact)
+    else:
+        if interval.lower is not None:
+            low = Fraction(float(interval.lower))
+            conditions["above"] = Interval(low, None, interval.lower_closed).contains(number)
+        if interval.upper is not None:
+            high = Fraction(float(interval.upper))
+            at_most = Interval(None, high, upper_closed=interval.upper_closed)
+            conditions["below"] = at_most.contains(number)
+    return conditions
 
 
 def _difference(value: Value, printed: Printed, *, exact: bool) -> Value:
