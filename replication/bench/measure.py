@@ -26,6 +26,7 @@ from tqdm import tqdm
 from reference.arithmetic import Number
 from reference.motion import Trajectory
 from reference.scheme import Scheme
+from reference.signals import postponed_signals
 from replication.bench.peers import SOLVERS, Function, bare_depth, depth_loop, sheet_loop
 from replication.cases import BETA_5, changed, inputs_of
 from replication.error.hard_cases import HARD_CASES
@@ -234,11 +235,12 @@ def bench(
     with tempfile.TemporaryDirectory() as empty:
         numba.config.CACHE_DIR = empty  # so that everything is compiled again
         arrays.compiled.cache_clear()
-        numba.vectorize(["f8(f8)"])(error_for)  # starts the compiler, which is no method's cost
+        with postponed_signals():
+            numba.vectorize(["f8(f8)"])(error_for)  # starts the compiler, which is no method's cost
         for case in cases:
             trials = [trial(case, task, repeat, limit) for task in tasks(case)]
             with tqdm(trials * (1 + repeat), case.name, leave=False, disable=quiet) as turns:
-                points = [next(turn, {}) for turn in turns]
+                points = [_next(turn) for turn in turns]
             del points[len(trials) :]  # later turns have filled in those of the first
             mark_front(points)
             asked = product((False, True), MEASURES, DIGITS)
@@ -251,6 +253,12 @@ def bench(
                 "fastest": [fastest(points, *question) for question in asked],
             })  # fmt: skip
     return {"machine": _machine(), "repeat": repeat, "limit": limit, "cases": measured}
+
+
+def _next(turn: Iterator[Point]) -> Point:
+    """Let a trial take its next turn; a signal waits, as compilers and solvers would lose it."""
+    with postponed_signals():
+        return next(turn, {})
 
 
 def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:

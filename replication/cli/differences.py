@@ -47,11 +47,13 @@ def put_differences(
     junit: Callable[[Mapping[str, Any]], str],
 ) -> int:
     """Write the files asked for, print the record as JSON or text, and return the exit status."""
-    from spreadsheets.safely import write_bytes
+    from spreadsheets.safely import write_files
 
+    written = list[tuple[Path, bytes]]()
     if options.html is not None:
-        write_bytes(options.html, page().encode())
+        written.append((options.html, page().encode()))
     if options.junit is not None:
-        write_bytes(options.junit, junit(record).encode())
+        written.append((options.junit, junit(record).encode()))
+    write_files(written)
     put(options, record, lambda: text(record), quietly=True)
     return 0 if record["clean"] else 1
