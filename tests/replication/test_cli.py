@@ -102,15 +102,33 @@ def test_csv_is_the_json_with_all_digits() -> None:
     assert float(rows[0]["stop_rule"]) == record["levels"][0]["budget"]["stop_rule"]
 
 
+REFUSED_SETTINGS = {
+    "NUMBA_DISABLE_JIT=1": (
+        "coldspray sweep: plan: arrays need Numba's compiler: unset NUMBA_DISABLE_JIT\n"
+    ),
+    "NUMBA_NUM_THREADS=abc": (
+        "coldspray sweep: plan: Environment variable 'NUMBA_NUM_THREADS' is defined but its "
+        "associated value 'abc' could not be parsed. Correct or unset it\n"
+    ),
+    "NUMBA_NUM_THREADS=0": (
+        "coldspray bench: an environment variable NUMBA_...: Number of threads specified must be "
+        "> 0. Correct or unset it\n"
+    ),
+}
+"""What is said of settings of Numba's that it cannot use; the reasons are its own."""
+
+
 @pytest.mark.parametrize(
     ("setting", "arguments"),
     [
         ("PYTHONIOENCODING=cp1252", "claims a1-density --json"),
         ("NUMBA_DISABLE_JIT=1", "sweep plan"),
+        ("NUMBA_NUM_THREADS=abc", "sweep plan"),
+        ("NUMBA_NUM_THREADS=0", "bench"),
     ],
 )
 def test_the_surroundings_change_no_promise(setting: str, arguments: str, tmp_path: Path) -> None:
-    """JSON is UTF-8 in any locale; arrays without a compiler are refused in one line."""
+    """JSON is UTF-8 in any locale; settings with which Numba cannot compile are named in a line."""
     (tmp_path / "plan").write_text("[inputs]\nvelocity = [400.0, 500.0]\n")
     name, value = setting.split("=")
     command = [sys.executable, "-m", "replication", *arguments.split()]
@@ -122,9 +140,7 @@ def test_the_surroundings_change_no_promise(setting: str, arguments: str, tmp_pa
         assert b"\\u00" in done.stdout
     else:
         assert done.returncode == 2
-        assert done.stderr.decode() == (
-            "coldspray sweep: plan: arrays need Numba's compiler: unset NUMBA_DISABLE_JIT\n"
-        )
+        assert done.stderr.decode() == REFUSED_SETTINGS[setting]
 
 
 def test_a_write_protected_file_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -203,6 +219,20 @@ def test_a_full_disk_gets_one_line_and_status_2(
     assert done.returncode == 2
     if stream == "stdout":
         assert re.fullmatch(r"coldspray( depth)?: No space left on device\n", done.stderr)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_warning_that_cannot_be_written_changes_no_result(unbuffered: str) -> None:
+    command = [sys.executable, "-m", "replication", "depth", "--velocity", "1e-4"]
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
+    warned = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert warned.stderr.startswith("coldspray depth: warning: --velocity is 0.0001 m/s")
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            command, stdout=-1, stderr=full, text=True, env=environment, check=False
+        )
+    assert (done.returncode, done.stdout) == (0, warned.stdout)
 
 
 def test_the_version() -> None:

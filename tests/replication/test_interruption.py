@@ -6,7 +6,8 @@ import re
 import signal
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,14 @@ import pytest
 from reference.signals import postponed_signals
 from replication.bench.measure import _next
 from replication.models import arrays, estimates
+
+
+@pytest.fixture
+def interruptible() -> Iterator[None]:
+    """Let SIGINT interrupt, which is ignored where the tests run in the background."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
 
 
 def swallowed(*_: Any) -> Any:
@@ -26,7 +35,7 @@ def swallowed(*_: Any) -> Any:
     return "told later"
 
 
-def test_a_signal_waits_for_the_end_of_the_block() -> None:
+def test_a_signal_waits_for_the_end_of_the_block(interruptible: None) -> None:
     done = []
     with pytest.raises(KeyboardInterrupt), postponed_signals():
         done.append(swallowed())
@@ -44,7 +53,7 @@ def test_a_signal_that_is_ignored_stays_ignored() -> None:
 
 
 def test_a_signal_while_a_model_is_compiled_acts_afterwards(
-    monkeypatch: pytest.MonkeyPatch,
+    interruptible: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(arrays, "_compiled", swallowed)
     arrays.compiled.cache_clear()
@@ -53,13 +62,14 @@ def test_a_signal_while_a_model_is_compiled_acts_afterwards(
     arrays.compiled.cache_clear()
 
 
-def test_a_signal_during_a_turn_of_the_bench_acts_afterwards() -> None:
+def test_a_signal_during_a_turn_of_the_bench_acts_afterwards(interruptible: None) -> None:
     with pytest.raises(KeyboardInterrupt):
         _next(swallowed() for _ in range(1))
 
 
 INTERRUPTED_IMPORT = """
 import signal, sys
+signal.signal(signal.SIGINT, signal.default_int_handler)
 class Finder:
     def find_spec(self, name, *_):
         if name == sys.argv[1]:
@@ -109,6 +119,7 @@ def test_a_signal_at_any_moment_of_a_run_that_compiles_ends_it(
             [sys.executable, "-m", "replication", *arguments], cwd=folder, text=True,
             env={**os.environ, "NUMBA_CACHE_DIR": str(tmp_path / f"cache {turn}")},
             stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            preexec_fn=partial(signal.signal, number, signal.SIG_DFL),
         )  # fmt: skip
         try:
             running.wait(chance.uniform(1, 6))
