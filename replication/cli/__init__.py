@@ -63,8 +63,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     try:
         for stream in (sys.stdout, sys.stderr):
             if isinstance(stream, io.TextIOWrapper):
-                # Escape characters that the terminal's encoding lacks.
-                stream.reconfigure(errors="backslashreplace")
+                # Escape characters that the terminal's encoding lacks; and end lines alike on all
+                # systems, so that what is printed is the same bytes.
+                stream.reconfigure(errors="backslashreplace", newline="\n")
         options = parse(COMMANDS, sys.argv[1:] if arguments is None else arguments)
         program += f" {options.command}"
         if arguments is None:
