@@ -19,7 +19,7 @@ def program() -> int:
             sys.stderr.write("coldspray: interrupted; no file is left in part\n")
             sys.stderr.flush()
         except OSError:
-            sys.stderr = None  # type: ignore[assignment]
+            sys.stderr = None
         return 130
 
 
