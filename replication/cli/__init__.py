@@ -30,7 +30,7 @@ from replication.cli import (
     workbook,
 )
 from replication.cli.output import complain, discard
-from replication.cli.parser import Command, parse
+from replication.cli.parser import Command, parse_command_line
 
 COMMANDS: Mapping[str, Command] = {
     "audit": audit,
@@ -66,7 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
                 # Escape characters that the terminal's encoding lacks; and end lines alike on all
                 # systems, so that what is printed is the same bytes.
                 stream.reconfigure(errors="backslashreplace", newline="\n")
-        options = parse(COMMANDS, sys.argv[1:] if arguments is None else arguments)
+        options = parse_command_line(COMMANDS, sys.argv[1:] if arguments is None else arguments)
         program += f" {options.command}"
         if arguments is None:
             _end_as_interrupted()
