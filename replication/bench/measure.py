@@ -34,6 +34,7 @@ from replication.error.ladder import exact_motion
 from replication.models import arrays, motion
 from replication.models.impact import Impact
 from replication.models.sheet import run
+from replication.reading import advice, quoted
 
 Measure = Literal["depth", "history"]
 MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}
@@ -103,7 +104,7 @@ def build_case(name: str) -> Case:
     ('26.079 ns', '6.4e-04')
     """
     if name not in CASES:
-        raise ValueError(f"there is no case {name!r} to time: choose one of {', '.join(CASES)}")
+        raise ValueError(f"there is no case {quoted(name)} to time: {advice(name, CASES)}")
     impact = changed(BETA_5, HARD_CASES[CASES[name]])
     motion, times, depths = exact_motion(impact), list[float](), list[Number]()
     for k in range(POINTS):
