@@ -41,10 +41,10 @@ def check_record(check: Check) -> dict[str, Any]:
         "claims": [
             {
                 "id": number.claim.id, "title": number.claim.title,
-                "where": str(number.claim.place), "printed": number.claim.shown,
+                "place": str(number.claim.place), "printed": number.claim.shown,
                 "unit": number.claim.unit, "interval": str(number.claim.interval()),
                 "cell": address(number.place, True), "found": number.found, "met": number.met,
-                **({"line": where(book, number.place)} if book.is_text else {}),
+                **({"where": where(book, number.place)} if book.is_text else {}),
             }
             for number in check.numbers
         ],
@@ -232,7 +232,7 @@ def _lines(record: Record) -> Iterator[str]:
     rows = [
         (
             f"  {with_unit(claim['printed'], claim['unit'])}",
-            safe(claim.get("line", claim["cell"]), 60),
+            safe(claim.get("where", claim["cell"]), 60),
             with_unit(f"{claim['found']:.7g}", claim["unit"]),
             "as printed" if claim["met"] else f"not in {claim['interval']}",
             claim["title"],
