@@ -264,16 +264,19 @@ def read_number(text: str, unit: str) -> float:
         raise ValueError(f"{quoted(text)} is not a finite number that a double can hold") from error
 
 
-def read_printed(text: str, unit: str) -> Interval:
+def read_printed(text: str, unit: str) -> list[Interval]:
     """Read a number, with or without a unit, as printed text: all values (SI) that print like it.
 
-    The last digit is taken as significant, a zero, too. `unit` and errors are as for `read_number`.
+    The first interval takes the last digit as significant, a zero, too. An integer that ends in
+    zeros may have fewer significant digits: each further interval takes one less of them. `unit`
+    and errors are as for `read_number`.
 
-    >>> print(read_printed("3.3 um", "m"), read_printed("700 MPa", "Pa"))
-    [3.25E-6, 3.35E-6) [6.995E+8, 7.005E+8)
+    >>> print(*read_printed("3.3 um", "m"), "and", *read_printed("700 MPa", "Pa"))
+    [3.25E-6, 3.35E-6) and [6.995E+8, 7.005E+8) [6.95E+8, 7.05E+8) [6.5E+8, 7.5E+8)
     """
     number, given_unit = _number_and_unit(text, unit)
-    return parse(number).interval().scaled(to_si(given_unit))
+    printed, factor = parse(number), to_si(given_unit)
+    return [printed.interval(quantum=quantum).scaled(factor) for quantum in printed.quanta]
 
 
 def read_numbers(table: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, float]:
