@@ -32,7 +32,7 @@ from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, Value, WorkbookPlan
 from spreadsheets.sheets import messages, workbook_plan
 from spreadsheets.sheets.audit import AS_PRINTED, LIVE_VERDICTS, OTHERWISE, AuditResult
 from spreadsheets.sheets.case import CaseSheet, prepared_rows
-from spreadsheets.sheets.convergence import LEVELS, NO_ORDER, run_inputs
+from spreadsheets.sheets.convergence import LEVELS, NO_ORDER, SMALL, run_inputs
 from spreadsheets.sheets.figure_5 import POINTS
 from spreadsheets.sheets.inputs import InputLine, input_lines
 from spreadsheets.sheets.solve import MEASURED
@@ -441,7 +441,9 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
 
     With it come the inputs of these runs, and those in use.
     """
-    of_runs = {name: inputs[name] for name in run_inputs([page for page, _ in runs])}
+    of_runs = {}
+    for name in run_inputs([page for page, _ in runs]):
+        of_runs[name] = inputs[name] * SMALL[name][0] if name in SMALL else inputs[name]
     values: Tree = {"message": messages.CURRENT}
     for page, sheet in runs:
         time_steps = ladder(sheet.impact.step, LEVELS)

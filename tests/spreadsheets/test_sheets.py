@@ -33,7 +33,7 @@ FUNCTIONS = {
 
 MATHEMATICAL = {
     "0", "0.5", "1", "2", "3", "4", "6", "7", "9", "21", "0.00000001", "1000000", "1000000000",
-    "1000000000000",
+    "1000000000000", "1000000000000000",
 }  # fmt: skip
 """Numbers of the printed equations (1/2, 4/3, 7/3), counts, and powers of ten for units."""
 
