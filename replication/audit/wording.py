@@ -20,14 +20,12 @@ from replication.audit.assessment import (
 from replication.audit.verdict import Judge
 from replication.text import between, number, quantity
 
-REMARK = "A remark, not a number: the figures below help to judge it."
-
 
 def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     """Explain the verdict on a claim by what it rests on."""
     ledger = judge.ledger
     if assessed.verdict is Verdict.REMARK:
-        return REMARK
+        return remark(ledger, claim)
     if assessed.no_value:
         return f"With the numbers as printed it cannot be computed: {assessed.no_value}."
     if assessed.readings:
@@ -45,6 +43,14 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     if assessed.verdict is Verdict.CONSISTENT:
         return f"Nothing to compute: {claim.why}."
     return f"Nothing in the report decides it: {claim.why}."
+
+
+def remark(ledger: Ledger, claim: Claim) -> str:
+    """Say that a claim is a remark, and where its figures are."""
+    if claim.same_as is None:
+        return "A remark, not a number: the figures below help to judge it."
+    same = ledger.claims[claim.same_as]
+    return f'It says again "{same.shown}", where the figures are: {same.title} (`{same.id}`).'
 
 
 def repetition(ledger: Ledger, claim: Claim, verdict: Verdict) -> str:
