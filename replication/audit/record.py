@@ -271,10 +271,14 @@ class Finding(_Part, frozen=True):
 
 
 class Approach(_Part, frozen=True):
-    """The normalized depth X/R by one approach, as computed here and, `shown`, as printed."""
+    """The normalized depth X/R by one approach, as computed here and, `shown`, as printed.
+
+    `beta` is that of the report's case; null for an approach that has none.
+    """
 
     kind: str
     name: str
+    beta: int | None = None
     computed: float | None = None
     shown: str = msgspec.field(name="printed", default="")
     claim: str | None = None
