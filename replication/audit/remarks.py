@@ -32,7 +32,7 @@ def figures(results: Results, claim: Claim) -> list[Figure]:
     return REMARKS[claim.id](results) if claim.id in REMARKS else []
 
 
-def figure(means: str, unit: str, compute: Callable[..., float], *arguments: Any) -> Figure:
+def quantified(means: str, unit: str, compute: Callable[..., float], *arguments: Any) -> Figure:
     """Return a figure with the computed number, in the unit; None if it has no finite value."""
     try:
         value = float(compute(*arguments))
@@ -82,15 +82,15 @@ def eq1_agreement(results: Results) -> list[Figure]:
     stated = "mean deviation of the velocity that section 4 states"
     means = "mean deviation at 500 m/s by {}, to first order in the printed sizes"
     return [
-        *(figure(means.format(law), "m/s", deviation, power) for law, power in LAWS),
-        figure(stated, "m/s", results.__getitem__, "velocity-deviation"),
+        *(quantified(means.format(law), "m/s", deviation, power) for law, power in LAWS),
+        quantified(stated, "m/s", results.__getitem__, "velocity-deviation"),
     ]
 
 
 def smaller_faster(results: Results) -> list[Figure]:
     """Section 2: "the smaller particles have a higher velocity than the mean", by Eq. 1."""
     return [
-        figure(
+        quantified(
             f"velocity of the {which} particle of the 521-m/s data by {law}", "m/s",
             stream_velocity, results, "velocity-521", size, power,
         )
@@ -111,12 +111,12 @@ def clustered_small(results: Results) -> list[Figure]:
         )
 
     return [
-        figure(
+        quantified(
             "share of the powder's particles of 10 to 30 um that are below 20 um, their sizes "
             "Gaussian as printed",
             "percent", share, lambda least, greatest: (least + greatest) / 2,
         ),
-        figure(
+        quantified(
             "the same below the mean of 22 um", "percent", share,
             lambda _, __: results["mean-diameter"],
         ),
@@ -131,15 +131,15 @@ def regardless_of_size(results: Results) -> list[Figure]:
 
     means = "CV/PV of the model at 521 m/s, the same for every size, beta = {}"
     return [
-        *(figure(means.format(beta), "1", crater, beta) for beta in BETAS),
-        figure("least CV/PV of the data", "1", results.__getitem__, "volume-ratio-line"),
+        *(quantified(means.format(beta), "1", crater, beta) for beta in BETAS),
+        quantified("least CV/PV of the data", "1", results.__getitem__, "volume-ratio-line"),
     ]
 
 
 def certainly_higher(results: Results) -> list[Figure]:
     """Section 2: as none stuck at 403 m/s, the minimum velocity "would certainly be higher"."""
     return [
-        figure(
+        quantified(
             f"velocity of the smallest particle, 10 um, in the stream of 403 m/s by {law}", "m/s",
             stream_velocity, results, "velocity-403", "particle-size-least", power,
         )
@@ -158,8 +158,8 @@ def surprisingly_shallow(results: Results) -> list[Figure]:
 
     means = "the observed over the printed depth of the model, beta = {}"
     return [
-        figure("observed depth over the particle's diameter", "percent", over_diameter),
-        *(figure(means.format(beta), "1", over_model, beta) for beta in BETAS),
+        quantified("observed depth over the particle's diameter", "percent", over_diameter),
+        *(quantified(means.format(beta), "1", over_model, beta) for beta in BETAS),
     ]
 
 
@@ -173,9 +173,9 @@ def profile_consistent(results: Results) -> list[Figure]:
         return 2 * results["profile-depth"] / results["observed-depth-ratio"] * 1e6
 
     return [
-        figure("X/R of that profile for a mean particle", "1", of_mean_particle),
-        figure("X/R observed", "1", results.__getitem__, "observed-depth-ratio"),
-        figure("diameter of a particle for which the profile has that X/R", "um", diameter),
+        quantified("X/R of that profile for a mean particle", "1", of_mean_particle),
+        quantified("X/R observed", "1", results.__getitem__, "observed-depth-ratio"),
+        quantified("diameter of a particle for which the profile has that X/R", "um", diameter),
     ]
 
 
@@ -199,11 +199,11 @@ def larger_grain(results: Results) -> list[Figure]:
 
     third = "a particle of 20 um pressed in by a third of its radius"
     return [
-        figure(
+        quantified(
             "diameter of a grain around three craters side by side, over a particle's", "1",
             around_three,
         ),
-        figure(f"diameter of the crater of {third}, over the particle's", "1", crater),
+        quantified(f"diameter of the crater of {third}, over the particle's", "1", crater),
     ]  # fmt: skip
 
 
@@ -214,8 +214,8 @@ def copper_stronger(results: Results) -> list[Figure]:
         return float(resistances(results)[beta]) / 1e9
 
     return [
-        figure("strength quoted for copper", "GPa", lambda: results["copper-yield"] / 1e9),
-        *(figure(f"target resistance, beta = {b}", "GPa", resistance, b) for b in BETAS),
+        quantified("strength quoted for copper", "GPa", lambda: results["copper-yield"] / 1e9),
+        *(quantified(f"target resistance, beta = {b}", "GPa", resistance, b) for b in BETAS),
     ]
 
 
@@ -226,7 +226,7 @@ def particle_stronger(results: Results) -> list[Figure]:
         return float(resistances(results)[beta]) / results["copper-yield"]
 
     means = "target resistance over the strength quoted for copper, beta = {}"
-    return [figure(means.format(beta), "1", multiple, beta) for beta in BETAS]
+    return [quantified(means.format(beta), "1", multiple, beta) for beta in BETAS]
 
 
 def rates_far_higher(results: Results) -> list[Figure]:
@@ -240,12 +240,12 @@ def rates_far_higher(results: Results) -> list[Figure]:
         return rate() / float(greatest.value)
 
     return [
-        figure(
+        quantified(
             "strain rate of the impact over 10,000 per second, up to which a public source says "
             "that these bars are generally used",
             "1", times,
         ),
-        figure("strain rate, velocity over diameter as printed", "1/s", rate),
+        quantified("strain rate, velocity over diameter as printed", "1/s", rate),
     ]  # fmt: skip
 
 
@@ -258,8 +258,8 @@ def strength_rises(results: Results) -> list[Figure]:
 
     law = "Johnson and Cook's law for copper"
     return [
-        figure(f"flow stress at 10^7 over that at 1 per second by {law}", "1", times),
-        figure(
+        quantified(f"flow stress at 10^7 over that at 1 per second by {law}", "1", times),
+        quantified(
             f"flow stress at 10^7 per second and strain 1 by {law}, far beyond its fit", "MPa",
             lambda: johnson_cook_copper(results) / 1e6,
         ),
@@ -279,10 +279,10 @@ def coarse_step(results: Results) -> list[Figure]:
     shown = []
     for beta, scheme in product(BETAS, Scheme):
         words = f"beta = {beta}, drag at the {scheme.drag_at} velocity"
-        shown.append(figure(f"change, {words}", "percent", change, beta, scheme))
+        shown.append(quantified(f"change, {words}", "percent", change, beta, scheme))
         for step in ("a-step", "coarse-step"):
             means = f"final depth at {results.text(step)} ns, {words}"
-            shown.append(figure(means, "um", micrometers, beta, scheme, step))
+            shown.append(quantified(means, "um", micrometers, beta, scheme, step))
     return shown
 
 
@@ -293,7 +293,7 @@ def large_difference(results: Results) -> list[Figure]:
         return results[f"ratio-beta-{beta}"] / results["observed-ratio"]
 
     means = "X/R of the model over the observed one, beta = {}"
-    return [figure(means.format(beta), "1", over_observed, beta) for beta in BETAS]
+    return [quantified(means.format(beta), "1", over_observed, beta) for beta in BETAS]
 
 
 def rigid_attribution(results: Results) -> list[Figure]:
@@ -309,7 +309,7 @@ def rigid_attribution(results: Results) -> list[Figure]:
     means = (
         "velocity below which copper of the quoted strength does not penetrate, Eq. 5, beta = {}"
     )
-    return [figure(means.format(beta), "m/s", least_velocity, beta) for beta in BETAS]
+    return [quantified(means.format(beta), "m/s", least_velocity, beta) for beta in BETAS]
 
 
 def attempts_no_better(results: Results) -> list[Figure]:
@@ -319,7 +319,7 @@ def attempts_no_better(results: Results) -> list[Figure]:
         return results[f"ratio-beta-{beta}"] - results["observed-ratio"]
 
     means = "X/R of the rigid model less the observed one, as printed, beta = {}"
-    return [figure(means.format(beta), "1", apart, beta) for beta in BETAS]
+    return [quantified(means.format(beta), "1", apart, beta) for beta in BETAS]
 
 
 def frank_zook_below_observed(results: Results) -> list[Figure]:
@@ -330,12 +330,14 @@ def frank_zook_below_observed(results: Results) -> list[Figure]:
 
     armor, observed = "frank-zook-rha", f"over the observed {results.text('observed-depth-ratio')}"
     return [
-        figure(f"X/R as printed {observed}, less 1", "percent", below, results.__getitem__, armor),
-        figure(
+        quantified(
+            f"X/R as printed {observed}, less 1", "percent", below, results.__getitem__, armor
+        ),
+        quantified(
             f"X/R derived from Eqs. 14 and 15 {observed}, less 1", "percent",
             below, results.computed, armor, DERIVED,
         ),
-        figure(
+        quantified(
             f"X/R by Eq. 16 as printed {observed}, less 1", "percent",
             below, results.computed, armor,
         ),
@@ -352,9 +354,9 @@ def strength_difference(results: Results) -> list[Figure]:
     R_t = results.text("fz-resistance-stainless", "GPa")
     means = f"share of the distance to the observed X/R that R_t = {R_t} GPa closes, {{}}"
     return [
-        figure(means.format("as printed"), "percent", share, results.__getitem__),
-        figure(means.format("Eqs. 14 and 15"), "percent", share, results.computed, DERIVED),
-        figure(means.format("Eq. 16 as printed"), "percent", share, results.computed),
+        quantified(means.format("as printed"), "percent", share, results.__getitem__),
+        quantified(means.format("Eqs. 14 and 15"), "percent", share, results.computed, DERIVED),
+        quantified(means.format("Eq. 16 as printed"), "percent", share, results.computed),
     ]
 
 
@@ -369,7 +371,7 @@ def closest_approach(results: Results) -> list[Figure]:
         def less_observed() -> float:
             return compute(*arguments) - results["observed-depth-ratio"]
 
-        return figure(f"X/R less the observed one, {means}", "1", less_observed)
+        return quantified(f"X/R less the observed one, {means}", "1", less_observed)
 
     def exact(beta: int) -> float:
         return exact_ratio(case(results, beta))
@@ -403,7 +405,7 @@ def same_calculation(results: Results) -> list[Figure]:
         ("diameter of the particle", "autodyne-diameter", "mean-diameter"),
     )
     return [
-        figure(f"{what}, Autodyne's over that of the model's text", "1", over, *claims)
+        quantified(f"{what}, Autodyne's over that of the model's text", "1", over, *claims)
         for what, *claims in pairs
     ]
 
@@ -415,7 +417,7 @@ def codes_overestimate(results: Results) -> list[Figure]:
         return percent_more(results[claim], results["observed-depth-ratio"])
 
     means = "{}'s X/R over the observed one, less 1"
-    return [figure(means.format(code), "percent", excess, claim) for code, claim in CODES]
+    return [quantified(means.format(code), "percent", excess, claim) for code, claim in CODES]
 
 
 def flat_surface(results: Results) -> list[Figure]:
@@ -435,8 +437,11 @@ def flat_surface(results: Results) -> list[Figure]:
 
     wide, round_ = "X/R if the contact is as wide as the sphere from the start", "exact X/R"
     return [
-        *(figure(f"{wide}, beta = {beta}", "1", flat, beta) for beta in BETAS),
-        *(figure(f"{round_} of the sphere, beta = {beta}", "1", sphere, beta) for beta in BETAS),
+        *(quantified(f"{wide}, beta = {beta}", "1", flat, beta) for beta in BETAS),
+        *(
+            quantified(f"{round_} of the sphere, beta = {beta}", "1", sphere, beta)
+            for beta in BETAS
+        ),
     ]
 
 
@@ -458,8 +463,8 @@ def elastic_rebound(results: Results) -> list[Figure]:
 
     back = "depth over R by which the model's crater springs back (Hertz, rigid particle)"
     return [
-        *(figure(f"{back}, beta = {beta}", "1", rebound, beta) for beta in BETAS),
-        *(figure(f"exact X/R less the observed one, beta = {b}", "1", apart, b) for b in BETAS),
+        *(quantified(f"{back}, beta = {beta}", "1", rebound, beta) for beta in BETAS),
+        *(quantified(f"exact X/R less the observed one, beta = {b}", "1", apart, b) for b in BETAS),
     ]
 
 
@@ -471,7 +476,7 @@ def deeper_craters(results: Results) -> list[Figure]:
         return exact_ratio(case(results, 5, velocity=velocity))
 
     return [
-        figure(
+        quantified(
             f"exact X/R of the {which} particle of the 521-m/s data, velocity by {law}, beta = 5",
             "1", ratio, size, power,
         )
@@ -489,7 +494,7 @@ def larger_adhere(results: Results) -> list[Figure]:
 
     streams = ("velocity-403", "velocity-606")
     return [
-        figure(
+        quantified(
             f"largest particle that flies at 521 m/s in the stream of {results.text(stream)} m/s, "
             f"by {law}",
             "um", diameter, stream, power,
@@ -507,7 +512,7 @@ def slower_incipient(results: Results) -> list[Figure]:
 
     means = "share of the stream of {} m/s that is slower than 521 m/s, deviation as stated"
     streams = ("velocity-606", "velocity-704")
-    return [figure(means.format(results.text(v)), "percent", share, v) for v in streams]
+    return [quantified(means.format(results.text(v)), "percent", share, v) for v in streams]
 
 
 def size_effect(results: Results) -> list[Figure]:
@@ -522,8 +527,8 @@ def size_effect(results: Results) -> list[Figure]:
     sizes = ("particle-size-least", "mean-diameter", "particle-size-greatest")
     means = "X/R of the sheet, beta = 5, particles of {} um"
     any_size = "exact X/R, beta = 5, for every size: R cancels from Eqs. 12 and 13"
-    shown = [figure(means.format(results.text(size)), "1", in_sheet, size) for size in sizes]
-    return [*shown, figure(any_size, "1", exact)]
+    shown = [quantified(means.format(results.text(size)), "1", in_sheet, size) for size in sizes]
+    return [*shown, quantified(any_size, "1", exact)]
 
 
 def velocity_effect(results: Results) -> list[Figure]:
@@ -537,8 +542,8 @@ def velocity_effect(results: Results) -> list[Figure]:
         return percent_more(ratio(ends[1]), ratio(ends[0]))
 
     means = "exact X/R at {} m/s, beta = 5"
-    shown = [figure(means.format(results.text(end)), "1", ratio, end) for end in ends]
-    return [figure("rise of the exact X/R from 400 to 500 m/s", "percent", rise), *shown]
+    shown = [quantified(means.format(results.text(end)), "1", ratio, end) for end in ends]
+    return [quantified("rise of the exact X/R from 400 to 500 m/s", "percent", rise), *shown]
 
 
 def too_few(results: Results) -> list[Figure]:
@@ -552,7 +557,7 @@ def too_few(results: Results) -> list[Figure]:
     kinds = (("standard", 1.0), ("mean", GAUSSIAN))
     averages = ("stream-velocity-400", "velocity-403")
     return [
-        figure(means.format(results.text(average), kind), "percent", share, average, deviations)
+        quantified(means.format(results.text(average), kind), "percent", share, average, deviations)
         for average, (kind, deviations) in product(averages, kinds)
     ]
 
@@ -568,10 +573,10 @@ def faster_only(results: Results) -> list[Figure]:
         return 100 * NormalDist().cdf(-deviations)
 
     return [
-        figure("share of the stream that is faster than its average", "percent", share, 0),
-        figure("share faster by the stated deviation of 50 m/s or more", "percent", share, 1),
-        figure("exact X/R at 521 m/s, beta = 5", "1", ratio, 0),
-        figure("exact X/R at 571 m/s, beta = 5", "1", ratio, 1),
+        quantified("share of the stream that is faster than its average", "percent", share, 0),
+        quantified("share faster by the stated deviation of 50 m/s or more", "percent", share, 1),
+        quantified("exact X/R at 521 m/s, beta = 5", "1", ratio, 0),
+        quantified("exact X/R at 571 m/s, beta = 5", "1", ratio, 1),
     ]
 
 
@@ -593,8 +598,10 @@ def velocity_distribution(results: Results) -> list[Figure]:
         return (results["velocity-521"] - needed()) / results["velocity-deviation"]
 
     return [
-        figure("velocity at which the exact X/R is 0.3, beta = 5", "m/s", needed),
-        figure("its distance from the average of 521 m/s in stated deviations", "1", deviations),
+        quantified("velocity at which the exact X/R is 0.3, beta = 5", "m/s", needed),
+        quantified(
+            "its distance from the average of 521 m/s in stated deviations", "1", deviations
+        ),
     ]
 
 
@@ -606,8 +613,8 @@ def rising_resistance(results: Results) -> list[Figure]:
         return exact_ratio(case(results, 5, resistance=times * impact.target_resistance))
 
     return [
-        figure("exact X/R, beta = 5", "1", ratio, 1),
-        figure("exact X/R at twice that resistance", "1", ratio, 2),
+        quantified("exact X/R, beta = 5", "1", ratio, 1),
+        quantified("exact X/R at twice that resistance", "1", ratio, 2),
     ]
 
 

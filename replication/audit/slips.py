@@ -33,7 +33,7 @@ from replication.text import number, powers_of_ten
 
 
 @dataclass(frozen=True)
-class Inputs:
+class Eq16Inputs:
     """The inputs of Eq. 16: L/D, k_1 and k_t [1], densities [kg/m^3], V [m/s] and R_t [Pa]."""
 
     L_D: float
@@ -66,76 +66,76 @@ Pair = tuple[float, float]
 # The density ratio, as printed: rho_p/rho_t
 
 
-def density_ratio(x: Inputs) -> float:
+def density_ratio(x: Eq16Inputs) -> float:
     return x.rho_p / x.rho_t
 
 
 @slip("density ratio", "the density ratio upside down")
-def density_ratio_inverted(x: Inputs) -> float:
+def density_ratio_inverted(x: Eq16Inputs) -> float:
     return x.rho_t / x.rho_p
 
 
 @slip("density ratio", "the square root of the density ratio, as for long rods")
-def density_ratio_rooted(x: Inputs) -> float:
+def density_ratio_rooted(x: Eq16Inputs) -> float:
     return sqrt(x.rho_p / x.rho_t)
 
 
 @slip("density ratio", "no density ratio")
-def density_ratio_left_out(_: Inputs) -> float:
+def density_ratio_left_out(_: Eq16Inputs) -> float:
     return 1.0
 
 
 # L/D
 
 
-def length_ratio(x: Inputs) -> float:
+def length_ratio(x: Eq16Inputs) -> float:
     return x.L_D
 
 
 @slip("L/D", "no L/D")
-def length_left_out(_: Inputs) -> float:
+def length_left_out(_: Eq16Inputs) -> float:
     return 1.0
 
 
 @slip("L/D", "L/R for L/D")
-def length_over_radius(x: Inputs) -> float:
+def length_over_radius(x: Eq16Inputs) -> float:
     return 2 * x.L_D
 
 
 @slip("L/D", "half of L for L")
-def half_length(x: Inputs) -> float:
+def half_length(x: Eq16Inputs) -> float:
     return x.L_D / 2
 
 
 @slip("L/D", "D/L for L/D")
-def length_ratio_inverted(x: Inputs) -> float:
+def length_ratio_inverted(x: Eq16Inputs) -> float:
     return 1 / x.L_D
 
 
 # k_1
 
 
-def k_1_of(x: Inputs) -> float:
+def k_1_of(x: Eq16Inputs) -> float:
     return x.k_1
 
 
 @slip("k_1", "no k_1")
-def k_1_left_out(_: Inputs) -> float:
+def k_1_left_out(_: Eq16Inputs) -> float:
     return 0.0
 
 
 @slip("k_1", "k_1/2 for k_1")
-def k_1_halved(x: Inputs) -> float:
+def k_1_halved(x: Eq16Inputs) -> float:
     return x.k_1 / 2
 
 
 @slip("k_1", "2 k_1 for k_1, as D is 2R")
-def k_1_doubled(x: Inputs) -> float:
+def k_1_doubled(x: Eq16Inputs) -> float:
     return 2 * x.k_1
 
 
 @slip("k_1", "k_t for k_1")
-def k_t_for_k_1(x: Inputs) -> float:
+def k_t_for_k_1(x: Eq16Inputs) -> float:
     return x.k_t
 
 
@@ -181,27 +181,27 @@ def k_1_multiplied(first: float, second: float) -> float:
 # The divisor, as printed: 2 k_t
 
 
-def k_t_of_divisor(x: Inputs) -> float:
+def k_t_of_divisor(x: Eq16Inputs) -> float:
     return x.k_t
 
 
 @slip("k_t below", "no k_t in the divisor")
-def k_t_left_out(_: Inputs) -> float:
+def k_t_left_out(_: Eq16Inputs) -> float:
     return 1.0
 
 
 @slip("k_t below", "k_1 for k_t in the divisor")
-def k_1_for_k_t(x: Inputs) -> float:
+def k_1_for_k_t(x: Eq16Inputs) -> float:
     return x.k_1
 
 
 @slip("k_t below", "1/2 for k_t in the divisor, as in Eq. 5")
-def half_for_k_t(_: Inputs) -> float:
+def half_for_k_t(_: Eq16Inputs) -> float:
     return 0.5
 
 
 @slip("k_t below", "k_t squared in the divisor")
-def k_t_squared(x: Inputs) -> float:
+def k_t_squared(x: Eq16Inputs) -> float:
     return x.k_t * x.k_t
 
 
@@ -217,50 +217,50 @@ def multiplied_by_k_t(k_t: float) -> float:
 # The drag over the resistance, as printed: k_t rho_t V^2/R_t
 
 
-def drag_factor(x: Inputs) -> float:
+def drag_factor(x: Eq16Inputs) -> float:
     return x.k_t
 
 
 @slip("k_t above", "no k_t in the logarithm")
-def k_t_left_out_of_drag(_: Inputs) -> float:
+def k_t_left_out_of_drag(_: Eq16Inputs) -> float:
     return 1.0
 
 
 @slip("k_t above", "1/2 for k_t in the logarithm, as in Eq. 5")
-def half_for_k_t_in_drag(_: Inputs) -> float:
+def half_for_k_t_in_drag(_: Eq16Inputs) -> float:
     return 0.5
 
 
 @slip("k_t above", "k_1 for k_t in the logarithm")
-def k_1_in_drag(x: Inputs) -> float:
+def k_1_in_drag(x: Eq16Inputs) -> float:
     return x.k_1
 
 
 @slip("k_t above", "k_t/2 in the logarithm: the 1/2 of Eq. 5 and k_t")
-def half_k_t_in_drag(x: Inputs) -> float:
+def half_k_t_in_drag(x: Eq16Inputs) -> float:
     return x.k_t / 2
 
 
 @slip("k_t above", "2 k_t in the logarithm, as in the divisor")
-def twice_k_t_in_drag(x: Inputs) -> float:
+def twice_k_t_in_drag(x: Eq16Inputs) -> float:
     return 2 * x.k_t
 
 
-def drag_density(x: Inputs) -> float:
+def drag_density(x: Eq16Inputs) -> float:
     return x.rho_t
 
 
 @slip("density above", "the particle's density in the logarithm")
-def rho_p_in_drag(x: Inputs) -> float:
+def rho_p_in_drag(x: Eq16Inputs) -> float:
     return x.rho_p
 
 
-def velocity_squared(x: Inputs) -> float:
+def velocity_squared(x: Eq16Inputs) -> float:
     return x.V * x.V
 
 
 @slip("power", "V not squared")
-def velocity_not_squared(x: Inputs) -> float:
+def velocity_not_squared(x: Eq16Inputs) -> float:
     return x.V
 
 
@@ -355,22 +355,22 @@ def doubled_twice(ratio: float) -> float:
 # The numbers put in
 
 
-def as_they_are(x: Inputs) -> Inputs:
+def as_they_are(x: Eq16Inputs) -> Eq16Inputs:
     return x
 
 
 @slip("parameters", "k_1 and k_t exchanged")
-def parameters_exchanged(x: Inputs) -> Inputs:
+def parameters_exchanged(x: Eq16Inputs) -> Eq16Inputs:
     return replace(x, k_1=x.k_t, k_t=x.k_1)
 
 
 @slip("densities", "the particle's density for both")
-def densities_of_particle(x: Inputs) -> Inputs:
+def densities_of_particle(x: Eq16Inputs) -> Eq16Inputs:
     return replace(x, rho_t=x.rho_p)
 
 
 @slip("densities", "the densities exchanged")
-def densities_exchanged(x: Inputs) -> Inputs:
+def densities_exchanged(x: Eq16Inputs) -> Eq16Inputs:
     return replace(x, rho_t=x.rho_p, rho_p=x.rho_t)
 
 
@@ -406,7 +406,7 @@ LENGTH_RATIOS = ("circumscribed-length-ratio",)
 """The claims that print another velocity, resistance or L/D, which may be put in by mistake."""
 
 
-def numbers_named(ledger: Ledger, x: Inputs) -> Iterator[Slip]:
+def numbers_named(ledger: Ledger, x: Eq16Inputs) -> Iterator[Slip]:
     """Yield a slip for each other velocity, resistance and L/D that the report names."""
     named = [("velocity", "V", claim, ledger.value(claim)) for claim in VELOCITIES]
     named += [("resistance", "R_t", claim, ledger.value(claim)) for claim in RESISTANCES]
@@ -421,7 +421,7 @@ def numbers_named(ledger: Ledger, x: Inputs) -> Iterator[Slip]:
             yield Slip(part, says, partial(_put, symbol, float(value)))
 
 
-def _put(symbol: str, value: float, x: Inputs) -> Inputs:
+def _put(symbol: str, value: float, x: Eq16Inputs) -> Eq16Inputs:
     return replace(x, **{symbol: value})
 
 
@@ -431,7 +431,7 @@ Member = tuple[Slip, ...]
 """A member of the family: Eq. 16 with slips in different parts of it."""
 
 
-def family(ledger: Ledger, x: Inputs) -> list[Member]:
+def family(ledger: Ledger, x: Eq16Inputs) -> list[Member]:
     """Return Eq. 16 as printed, with one or two slips, and with two slips and X/R twice X/D."""
     slips = [*TYPED, *numbers_named(ledger, x)]
     pairs = [pair for pair in combinations(slips, 2) if pair[0].part != pair[1].part]
@@ -441,7 +441,7 @@ def family(ledger: Ledger, x: Inputs) -> list[Member]:
     return [(), *((slip,) for slip in slips), *pairs, *doubled_too]
 
 
-def ratio(x: Inputs, member: Member) -> float:
+def depth_with_slips(x: Eq16Inputs, member: Member) -> float:
     """Return X/R [1] by Eq. 16 with these slips, without its sign.
 
     Raises ValueError or ArithmeticError where it has no value.
@@ -468,7 +468,7 @@ NEAR = 1.5
 """Members within this factor of a number tell how many would fit it by accident."""
 
 
-def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSlip]]:
+def slips_tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSlip]]:
     """Return which slips give a claim that Eq. 16 should give, and how many would by accident.
 
     A slip fits if it gives the number, with all other inputs as printed, for some target density
@@ -505,10 +505,10 @@ def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSlip]]:
     return SlipsTried(forms=len(forms), members=len(seen), near=near, expected=expected), fitting
 
 
-def _inputs(judge: Judge, claim: Claim) -> Inputs:
+def _inputs(judge: Judge, claim: Claim) -> Eq16Inputs:
     """Return the inputs of a Frank-Zook claim as printed, in doubles."""
     values = {name: float(judge.value(*entries)) for name, entries in claim.inputs.items()}
-    return Inputs(
+    return Eq16Inputs(
         L_D=values["length_ratio"],
         rho_p=values["particle_density"],
         rho_t=values["target_density"],
@@ -525,10 +525,10 @@ def _admitted(judge: Judge) -> list[float]:
     return [float(end) for end in (*inference.with_mass.ends, *inference.inner.ends)]
 
 
-def _value(x: Inputs, member: Member) -> float | None:
+def _value(x: Eq16Inputs, member: Member) -> float | None:
     """Return X/R of a member; None if it has no value, or none above zero."""
     try:
-        value = ratio(x, member)
+        value = depth_with_slips(x, member)
     except (ArithmeticError, ValueError):
         return None
     return value if 0 < value < inf else None

@@ -129,13 +129,13 @@ def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
 def scope(claim: Claim, reading: Reading) -> str:
     """Say under which conventions the verdict holds, and under which it becomes another one."""
     subject = "As printed, the" if claim.readings and not reading.name else "The"
-    holds = f"{subject} verdict holds under {_conditions(claim, reading)}"
+    holds = f"{subject} verdict holds under {_conditions_met(claim, reading)}"
     if exceptions := _exceptions(claim, reading):
         return f"{holds}; {exceptions}."
     return f"{holds}."
 
 
-def _conditions(claim: Claim, reading: Reading) -> str:
+def _conditions_met(claim: Claim, reading: Reading) -> str:
     """Name the conventions under which the verdict holds; some may still fail together."""
     tried = [judgement.convention for judgement in reading.judgements]
     usual = [c for c in tried if (c.rounding, c.scheme) == (tried[0].rounding, tried[0].scheme)]
@@ -216,10 +216,10 @@ def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]
     values = [source.interval for source in judge.ledger.sources_of(claim.id)]
     if computed is not None:
         values = [Interval.point(Fraction(computed) * claim.si)]
-    return assumed + _digits(claim, values)
+    return assumed + _digits_taken(claim, values)
 
 
-def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
+def _digits_taken(claim: Claim, values: Sequence[Interval]) -> list[str]:
     """Say which digits of an ambiguous number are taken as significant, and whether it matters.
 
     The number is compared with the values (SI) that are computed or that public sources print.
