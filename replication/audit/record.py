@@ -352,7 +352,7 @@ class Level(_Part, frozen=True):
 class Counts(_Part, frozen=True):
     """How many claims and equations there are, by kind and outcome.
 
-    The `entries` are all claims: `numbers` are printed numbers, `remarks` comparisons in words.
+    The `entries` are all claims: `numbers` are printed numbers, `remarks` what it says in words.
     Of the `reproduced` numbers, `constants` stand in equations and `computed` are calculated
     from their inputs; `values` counts the different values among these, each once however often
     it is printed. Of the computed ones, only the `independent` ones could have failed by

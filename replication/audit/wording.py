@@ -50,7 +50,7 @@ def remark(ledger: Ledger, claim: Claim) -> str:
     if claim.same_as is None:
         return "A remark, not a number: the figures below help to judge it."
     same = ledger.claims[claim.same_as]
-    return f'It says again "{same.shown}", where the figures are: {same.title} (`{same.id}`).'
+    return f'It says again "{same.shown}", where the figures are: `{same.id}`.'
 
 
 def repetition(ledger: Ledger, claim: Claim, verdict: Verdict) -> str:

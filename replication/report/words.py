@@ -194,7 +194,7 @@ def density(record: r.Record) -> str:
 def entries(counts: r.Counts) -> str:
     """Say how many entries the ledger has."""
     return (
-        f"Together with {counts.remarks} comparisons in words, these numbers make "
+        f"Together with {counts.remarks} remarks in words, these numbers make "
         f"{counts.entries} entries."
     )
 
