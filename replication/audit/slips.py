@@ -502,7 +502,8 @@ def slips_tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSli
                 )
             )
     fitting.sort(key=lambda record: (record.departures, record.name))
-    return SlipsTried(forms=len(forms), members=len(seen), near=near, expected=expected), fitting
+    # It adds hundreds of logarithms, which C libraries round otherwise: nine decimals are the same.
+    return SlipsTried(len(forms), len(seen), near, round(expected, 9)), fitting
 
 
 def _inputs(judge: Judge, claim: Claim) -> Eq16Inputs:
