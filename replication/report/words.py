@@ -30,13 +30,13 @@ CONVENTIONS = (
     "the report's."
 )
 
-USUAL = (
+USUAL_CONDITIONS = (
     "Unless it says otherwise, a verdict here holds under three ways of rounding and, where these "
     "concern it, under both schemes of the sheet, and with the author's choices and the header of "
     "Table A-1 exact or rounded."
 )
 
-REMARKS = (
+ABOUT_REMARKS = (
     "What the report says of its results in words gets no verdict. The figures below help to judge "
     "it; of several the first tells most."
 )
@@ -95,7 +95,7 @@ def shown_range(effect: r.Effect) -> str:
 
 
 def condition(record: r.ClaimRecord) -> str:
-    """Return under which conventions a verdict holds, if that is not what `USUAL` says."""
+    """Return under which conventions a verdict holds, unless `USUAL_CONDITIONS` says it."""
     said = record.verdict.is_open or any(r.otherwise for r in record.assessment.readings[:1])
     return record.scope if said else ""
 
