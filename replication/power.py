@@ -34,7 +34,7 @@ class Plant(NamedTuple):
     edit: str
 
 
-class Counts(msgspec.Struct, kw_only=True):
+class PlantCounts(msgspec.Struct, kw_only=True):
     """How many misprints were planted, how many of them are visible, and what the audit noticed.
 
     `detected`: something fails because of the misprint; `accused_wrongly`: the first repair that
@@ -53,18 +53,18 @@ class Counts(msgspec.Struct, kw_only=True):
     controls: int = 0
     false_alarms: int = 0
 
-    def add(self, more: "Counts") -> None:
+    def add(self, more: "PlantCounts") -> None:
         """Add other counts to these."""
-        for name in Counts.__struct_fields__:
+        for name in PlantCounts.__struct_fields__:
             setattr(self, name, getattr(self, name) + getattr(more, name))
 
 
-class Power(Counts, kw_only=True):
+class Power(PlantCounts, kw_only=True):
     """The counts of a sample, in all, by kind of entry and by kind of edit; what is unnoticed."""
 
     seed: int
-    by_kind: dict[str, Counts] = msgspec.field(default_factory=dict)
-    by_edit: dict[str, Counts] = msgspec.field(default_factory=dict)
+    by_kind: dict[str, PlantCounts] = msgspec.field(default_factory=dict)
+    by_edit: dict[str, PlantCounts] = msgspec.field(default_factory=dict)
     unnoticed: list[dict[str, str]] = msgspec.field(default_factory=list)
 
     def rates(self) -> Table:
@@ -81,7 +81,7 @@ class Power(Counts, kw_only=True):
 
     def table(self) -> Table:
         """Return rates in percent of the visible misprints, by kind of entry and of edit."""
-        groups: dict[str, Counts] = {"all": self}
+        groups: dict[str, PlantCounts] = {"all": self}
         for word, parts in (("in", self.by_kind), ("by", self.by_edit)):
             groups |= {f"{word} {name}": parts[name] for name in sorted(parts)}
         heads = (
@@ -184,7 +184,7 @@ def is_false_alarm(truth: Audit, control: Plant) -> bool:
     )
 
 
-def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
+def judge_misprint(truth: Audit, plant: Plant) -> tuple[set[str], PlantCounts]:
     """Judge everything that depends on a planted misprint, and compare with the true report.
 
     Returns what fails only because of the misprint, and the counts for it.
@@ -197,7 +197,7 @@ def trial(truth: Audit, plant: Plant) -> tuple[set[str], Counts]:
     repairs = audit.explainer.ranked(sorted(failing))
     is_true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
     visible = bool(failing) or _is_visible(truth, ledger, claims)
-    return failing, Counts(
+    return failing, PlantCounts(
         planted=1,
         invisible=not visible,
         visible=visible,
@@ -251,7 +251,7 @@ def _is_visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
     )
 
 
-def power(
+def measure_power(
     ledger: Ledger, sample: int, seed: int, progress: Callable[[Iterable[Plant]], Iterable[Plant]]
 ) -> Power:
     """Plant random samples of misprints and of harmless rewritings, one text at a time.
@@ -267,13 +267,13 @@ def power(
     truth, result = Audit(ledger, every_convention=False), Power(seed=seed)
     for plant in progress([*misprints, *sorted(harmless)]):
         if plant in harmless:
-            counts = Counts(controls=1, false_alarms=is_false_alarm(truth, plant))
+            counts = PlantCounts(controls=1, false_alarms=is_false_alarm(truth, plant))
         else:
-            failing, counts = trial(truth, plant)
+            failing, counts = judge_misprint(truth, plant)
             if counts.visible and not failing:
                 result.unnoticed.append(plant._asdict())
         kind = ledger.claims[plant.entry].kind if plant.entry in ledger.claims else "equation"
-        by_kind = result.by_kind.setdefault(kind, Counts())
-        for total in (result, by_kind, result.by_edit.setdefault(plant.edit, Counts())):
+        by_kind = result.by_kind.setdefault(kind, PlantCounts())
+        for total in (result, by_kind, result.by_edit.setdefault(plant.edit, PlantCounts())):
             total.add(counts)
     return result

@@ -20,8 +20,8 @@ from replication.models.impact import (
     GREATEST,
     LEAST,
     InputError,
-    check,
     check_each,
+    check_inputs,
     check_range,
     least_usual,
 )
@@ -369,7 +369,7 @@ def _refuse(
     doubtful = _unusual(arrays[1:]) | ~np.isfinite(arrays[0])
     for index, value, case in _elements(arrays, doubtful, numbers):
         try:
-            check(case)
+            check_inputs(case)
             range_check(**case)
             if not math.isfinite(value):
                 raise _without_result(case, value)

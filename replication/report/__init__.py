@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from reference.ledger import INFERRED, Ledger
 from replication.audit.record import ClaimRecord, EquationRecord, Finding, Record
 from replication.report import tables, words
-from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
+from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, plain_quotation
 from replication.report.terminal import Terminal, capital
 from replication.text import json_text, number, quantity, rows_csv
 
@@ -29,12 +29,12 @@ def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
     from hashlib import sha256
 
     from replication.report.document import audit_document
-    from replication.report.figures import draw
+    from replication.report.figures import draw_figures
 
     hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
     provenance = record.provenance | {"sha256": record.provenance["sha256"] | hashes}
     record = replace(record, provenance=provenance)
-    drawings, document = draw(record), audit_document(record)
+    drawings, document = draw_figures(record), audit_document(record)
     texts = {
         "audit.html": html(record, drawings),
         "audit.md": markdown(record),
@@ -98,10 +98,10 @@ def _from_template(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
     filters = {
         "capital": capital,
         "number": number,
-        "with_unit": words.with_unit,
+        "printed_with_unit": words.printed_with_unit,
         # A macro returns Markup: str() keeps jinja2 from escaping in it what `prose` escapes.
         "prose": cache(lambda sentence: finished(prose(str(sentence)))),
-        "quoted": quoted,
+        "plain_quotation": plain_quotation,
         "quantity": quantity,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
@@ -121,7 +121,7 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
         "record": record,
         "words": words,
         "not_as_printed": tables.not_as_printed(record),
-        "main": tables.main(record),
+        "main": tables.main_results(record),
         "findings": record.findings[:FINDINGS],
         "more": len(record.findings[FINDINGS:]),
     }
@@ -147,10 +147,10 @@ def proof(
     """
     names = _names(ledger)
     writer = Terminal(_prose(ledger, names), width, strong)
-    stated, quote = claim.claim, writer.prose(quoted(claim.claim.quote))
+    stated, quote = claim.claim, writer.prose(plain_quotation(claim.claim.quote))
     parts = [
         writer.heading(stated.title, claim.id),
-        writer.filled(f"{words.with_unit(stated)}, {stated.place}: {claim.verdict}"),
+        writer.filled(f"{words.printed_with_unit(stated)}, {stated.place}: {claim.verdict}"),
         writer.filled(f'"{quote.replace("⟦", "").replace("⟧", "")}"'),
         "",
         writer.filled(writer.prose(f"{claim.explanation} {claim.scope}")),
@@ -161,7 +161,8 @@ def proof(
         parts += ["", writer.filled(formula), writer.filled(f"By hand: {by_hand}")]
     if facts := tables.facts(claim, names):
         parts += ["", writer.columns(facts)]
-    return "\n".join([*parts, *writer.grids(tables.tried(claim)), *writer.titles(findings)])
+    shown = tables.explanation_tables(claim)
+    return "\n".join([*parts, *writer.grids(shown), *writer.titles(findings)])
 
 
 def equation_proof(
@@ -177,7 +178,7 @@ def equation_proof(
     parts = [
         writer.heading(words.equation_title(equation), equation.id),
         writer.filled(f"{equation.equation.place}: {equation.verdict}"),
-        writer.filled(writer.prose(quoted(equation.text))),
+        writer.filled(writer.prose(plain_quotation(equation.text))),
         "",
         writer.filled(writer.prose(equation.explanation)),
     ]
@@ -192,7 +193,7 @@ def _names(ledger: Ledger) -> dict[str, Named]:
         value = words.measured(float(inferred.nominal), inferred.unit)
         names[f"{INFERRED}{name}"] = Named(inferred.title, value=value)
     for name, entry in ledger.claims.items():
-        names[name] = Named(entry.title, value=words.with_unit(entry))
+        names[name] = Named(entry.title, value=words.printed_with_unit(entry))
     return names
 
 
