@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from openpyxl import load_workbook
 from workbooks import rewritten, usable
+from xlsxwriter.worksheet import Worksheet
 
 from replication.workbook import Workbook
 from spreadsheets import emit, safely
@@ -52,6 +53,21 @@ def test_values_must_have_the_keys_of_the_plan(values: Mapping[str, float], prob
 def test_a_name_that_spreadsheets_refuse_is_an_error() -> None:
     with pytest.raises(ValueError, match="'v0' cannot name a cell"):
         emit.to_bytes(plan_of(A1=Cell(key="v0", named=True)), {"v0": 1.0})
+
+
+# Formulas
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "=1+SUM(A1:A2)", "=XLOOKUP(1,A1:A2,B1:B2)", "{=SUM(A1:A2*2)}", "=SORT(A1:A2)+MAX(A1:A2)",
+        '=IF(A1="DROP(",1,FILTER(A1:A2,B1:B2))', "=_xlfn.UNIQUE(A1:A2)", '="}"',
+    ],
+)  # fmt: skip
+def test_formulas_are_stored_as_xlsxwriter_by_itself_would(text: str) -> None:
+    prepare = Worksheet()._prepare_formula
+    assert emit._stored(prepare, text) == prepare(text)
 
 
 # Parts
