@@ -194,7 +194,7 @@ def stress_on_a_rigid_particle(eq: SymbolicEquations, s: Symbols) -> Iterator[Ch
 
 
 @derivation("eq7")
-def target_resistance(eq: SymbolicEquations, s: Symbols) -> Iterator[Check]:
+def definition_of_beta(eq: SymbolicEquations, s: Symbols) -> Iterator[Check]:
     """It defines beta."""
     yield from _target_resistance("eq7", eq, s)
 

@@ -135,7 +135,7 @@ class Solutions(msgspec.Struct, frozen=True):
         return any(low <= value <= high for low, high in self.inner)
 
 
-def solve(
+def find_solutions(
     function: Function,
     name: str,
     search: Ends,
@@ -150,8 +150,9 @@ def solve(
     the outer intervals, as do parts on which the function may have no value somewhere.
 
     >>> search, target = (Fraction(0), Fraction(9)), Interval(Fraction(2), Fraction(3))
-    >>> found = solve(lambda ar, x, y: x * y, "x", search, target, others={"y": Fraction(2)})
-    >>> [f"{float(end):.3f}" for end in found.inner[0]]
+    >>> others = {"y": Fraction(2)}
+    >>> solutions = find_solutions(lambda ar, x, y: x * y, "x", search, target, others=others)
+    >>> [f"{float(end):.3f}" for end in solutions.inner[0]]
     ['1.000', '1.500']
     """
     parts = [search]
@@ -256,7 +257,7 @@ def _bounds(monotone: Sequence[tuple[Constraint, Range]], name: str, box: Box) -
             others = {key: ends[alike[key] != top] for key, ends in box.items() if key != name}
             if target.encloses(*_plain_range(function, _points({**others, name: outer[top]}))):
                 continue  # the constraint holds even at the present bound
-            if beyond := solve(function, name, box[name], target, others=others).outer:
+            if beyond := find_solutions(function, name, box[name], target, others=others).outer:
                 bound = (beyond[0][0], beyond[-1][1])[top]
                 outer[top] = min(bound, outer[1]) if top else max(bound, outer[0])
     return outer[0], outer[1]

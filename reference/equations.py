@@ -159,11 +159,11 @@ def read_expression(text: str, symbols: Mapping[str, str]) -> Node:
     >>> rendered(read_expression(r"2E_t/3Y_t", {"E_t": "E", "Y_t": "Y"}), {"E": "E", "Y": "Y"})
     '(2 E)/(3 Y)'
     """
-    return _read(text, tuple(symbols.items()))
+    return _read_expression(text, tuple(symbols.items()))
 
 
 @lru_cache(2048)
-def _read(text: str, symbols: tuple[tuple[str, str], ...]) -> Node:
+def _read_expression(text: str, symbols: tuple[tuple[str, str], ...]) -> Node:
     """Cached, as the audit tries the same misprint for every claim that uses the equation."""
     reader = _Reader(text, dict(symbols))
     node = reader.expression()

@@ -35,11 +35,13 @@ Kind = Literal[
 ]  # fmt: skip
 
 
-def shown(text: str) -> str:
+def as_shown(text: str) -> str:
     r"""Return printed text as it is shown to readers, without LaTeX markup.
 
-    >>> shown(r"9.13 \times 10^9"), shown(r"\frac{1}{2}"), shown("~ 0.3"), shown("m^{1/2}")
-    ('9.13 × 10⁹', '1/2', '~0.3', 'm^(1/2)')
+    >>> as_shown(r"9.13 \times 10^9"), as_shown(r"\frac{1}{2}")
+    ('9.13 × 10⁹', '1/2')
+    >>> as_shown("~ 0.3"), as_shown("m^{1/2}")
+    ('~0.3', 'm^(1/2)')
     """
     text = re.sub(r"\\frac\{(\d+)\}\{(\d+)\}", r"\1/\2", text).replace(r"\times", "×")
     text = re.sub(r"\^\{(-?\d+)\}", r"^\1", text)
@@ -208,7 +210,7 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     @property
     def shown(self) -> str:
         """The text as it is shown to readers, without LaTeX markup."""
-        return shown(self.text)
+        return as_shown(self.text)
 
     @cached_property
     def si(self) -> Fraction:
@@ -318,7 +320,7 @@ class Lines(Entry, frozen=True):
     basis: Mapping[str, Any] = {}
 
 
-class Column(Entry, frozen=True):
+class TableColumn(Entry, frozen=True):
     """What the claims in a column of Table A-1 have in common; their ids begin with `id`."""
 
     id: str
@@ -330,7 +332,7 @@ class TimeSteps(Entry, frozen=True):
     """The table [time_steps]: the rows of Table A-1 as printed, and what columns have in common."""
 
     rows: Mapping[str, str]
-    columns: Mapping[str, Column]
+    columns: Mapping[str, TableColumn]
 
     @property
     def claims(self) -> Iterator[Claim]:
@@ -386,7 +388,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
     @cached_property
     def sources(self) -> Mapping[str, Source]:
         """The public sources, by id."""
-        sources = tables("sources.toml", dict[Literal["source"], list[Source]])["source"]
+        sources = read_toml("sources.toml", dict[Literal["source"], list[Source]])["source"]
         return {source.id: source for source in sources}
 
     def sources_of(self, name: str) -> list[Source]:
@@ -592,11 +594,11 @@ def load() -> Ledger:
     >>> claim.text, str(claim.interval()), claim.unit
     ('7.67', '[7.665, 7.675)', 'um')
     """
-    ledger: Ledger = tables("ledger.toml", Ledger)
+    ledger: Ledger = read_toml("ledger.toml", Ledger)
     return ledger
 
 
-def tables(file: str, kind: Any) -> Any:
+def read_toml(file: str, kind: Any) -> Any:
     """Read a TOML file of `reference/report`.
 
     Raises msgspec.ValidationError, naming the file, if it is no TOML or does not fit.

@@ -84,7 +84,7 @@ def read_columns(path: Path) -> list[Column]:
     """
     content = content_of(path, LARGEST_FILE)
     with place(str(path)):
-        rows = list(_rows(_text(content)))
+        rows = list(_numbered_rows(_decoded(content)))
         if len(rows) < 2:
             raise ValueError("has no row of numbers below a row of heads")
     (head_line, heads), *body = rows
@@ -107,7 +107,7 @@ def read_columns(path: Path) -> list[Column]:
     return columns
 
 
-def _text(content: bytes) -> str:
+def _decoded(content: bytes) -> str:
     if len(content) > LARGEST_FILE:
         raise ValueError(f"is larger than {LARGEST_FILE:,} bytes")
     try:
@@ -116,7 +116,7 @@ def _text(content: bytes) -> str:
         raise ValueError("is not UTF-8 text: save it as CSV in UTF-8") from error
 
 
-def _rows(text: str) -> Iterator[tuple[int, list[str]]]:
+def _numbered_rows(text: str) -> Iterator[tuple[int, list[str]]]:
     """Yield the rows that are not skipped, each with the number of its last line."""
     lines = text.splitlines(keepends=True)
     first = next((line for line in lines if line.strip() and line.lstrip()[0] != "#"), "")

@@ -14,7 +14,7 @@ from replication.cases import INPUTS, OTHER_FACTOR, other_factor
 from replication.columns import bad_rows, column_of, read_columns
 from replication.models import arrays
 from replication.models.depth import elasticities, final_depth
-from replication.models.impact import Impact, InputError, check
+from replication.models.impact import Impact, InputError, check_inputs
 from replication.reading import advice, place, quoted
 
 FITTABLE = ("resistance", *OTHER_FACTOR)
@@ -108,7 +108,7 @@ def read_measurements(path: Path, impact: Impact) -> list[Measurement]:
         row = case | {name: values[k] for name, values in numbers.items()}
         try:
             with place(f"{path}, line {line}"):
-                check(row)
+                check_inputs(row)
             if "normalized_depth" in row:
                 row["depth"] = row.pop("normalized_depth") * row["radius"]
                 if "uncertainty" in row:
@@ -145,7 +145,7 @@ def fit(impact: Impact, measurements: Sequence[Measurement], quantity: str = "re
     scale = math.fsum(m.depth for m in measurements) / len(measurements)
     resistance = _least_squares(measurements, uncertainties or [scale] * len(measurements))
     residuals = tuple(m.depth - final_depth(*m.impact, resistance) for m in measurements)
-    slopes = [_slope(m, resistance) for m in measurements]
+    slopes = [_depth_slope(m, resistance) for m in measurements]
     chi_square = error = None
     if uncertainties:
         pairs = list(zip(residuals, slopes, uncertainties, strict=True))
@@ -171,7 +171,7 @@ def check_factor(impact: Impact, quantity: str) -> float:
     return other_factor(impact, quantity) if quantity in OTHER_FACTOR else 1.0
 
 
-def _slope(measurement: Measurement, resistance: float) -> float:
+def _depth_slope(measurement: Measurement, resistance: float) -> float:
     """Return dX / d ln R_t [m], which is negative."""
     velocity, _, *densities = measurement.impact
     by_input = elasticities(velocity, densities[0], densities[1], resistance)
@@ -188,7 +188,7 @@ def _least_squares(measurements: Sequence[Measurement], uncertainties: Sequence[
     """
     from scipy.optimize import least_squares
 
-    single = sorted(_single(m) for m in measurements)
+    single = sorted(_own_resistance(m) for m in measurements)
 
     def residuals(log_resistance: "Sequence[float]") -> list[float]:
         R_t = math.exp(log_resistance[0])
@@ -198,7 +198,7 @@ def _least_squares(measurements: Sequence[Measurement], uncertainties: Sequence[
     def slopes(log_resistance: "Sequence[float]") -> list[list[float]]:
         R_t = math.exp(log_resistance[0])
         pairs = zip(measurements, uncertainties, strict=True)
-        return [[_slope(m, R_t) / sigma] for m, sigma in pairs]
+        return [[_depth_slope(m, R_t) / sigma] for m, sigma in pairs]
 
     bounds = math.log(single[0]) - 1, math.log(single[-1]) + 1
     # The tolerances are those of doubles: a step below them changes nothing.
@@ -208,7 +208,7 @@ def _least_squares(measurements: Sequence[Measurement], uncertainties: Sequence[
     return math.exp(min(fits, key=lambda result: result.cost).x[0])
 
 
-def _single(measurement: Measurement) -> float:
+def _own_resistance(measurement: Measurement) -> float:
     """Return the resistance that a measurement gives by itself; errors name its line."""
     try:
         return float(arrays.resistance_for_depth(measurement.depth, *measurement.impact))

@@ -58,7 +58,7 @@ INK, SHADE = "#1f2328", "#8c959f"
 """The colors of text, of one's own points and of the exact motion; and of what stands behind."""
 
 
-class Look(NamedTuple):
+class CurveLook(NamedTuple):
     """How a curve is drawn, in Matplotlib's words."""
 
     color: str
@@ -78,18 +78,18 @@ class Look(NamedTuple):
 
 _LINES, _MARKERS = {"solid": "-", "dash": "--"}, {"circle": "o", "square": "s"}
 BY_BETA = {
-    beta: Look(look.color, _LINES[look.dash], _MARKERS[look.marker])
+    beta: CurveLook(look.color, _LINES[look.dash], _MARKERS[look.marker])
     for beta, look in CURVES.items()
 }
 """The looks of the report's two cases, by their beta."""
 
 OTHER_LOOKS = (
-    Look("#009e73", "-.", "^"),
-    Look("#cc79a7", ":", "D"),
-    Look("#e69f00", (0, (6, 1, 1, 1, 1, 1)), "v"),  # type: ignore[arg-type]
-    Look("#56b4e9", (0, (1, 3)), "P"),  # type: ignore[arg-type]
-    Look(INK, "-", "X"),
-    Look(SHADE, "--", "*"),
+    CurveLook("#009e73", "-.", "^"),
+    CurveLook("#cc79a7", ":", "D"),
+    CurveLook("#e69f00", (0, (6, 1, 1, 1, 1, 1)), "v"),  # type: ignore[arg-type]
+    CurveLook("#56b4e9", (0, (1, 3)), "P"),  # type: ignore[arg-type]
+    CurveLook(INK, "-", "X"),
+    CurveLook(SHADE, "--", "*"),
 )
 """The looks of all other curves: more of Okabe and Ito's colors."""
 
@@ -97,7 +97,7 @@ MOST_CURVES = len(OTHER_LOOKS)
 """The most curves that a figure shows, one for each value of an input."""
 
 
-def look_of(impact: Impact) -> Look:
+def look_of(impact: Impact) -> CurveLook:
     """Return how a case is drawn: by its beta as the report's, or else in a look of its own.
 
     >>> from replication.cases import BETA_3
@@ -107,7 +107,7 @@ def look_of(impact: Impact) -> Look:
     return _look("" if impact.beta is None else f"{impact.beta:g}", 0)
 
 
-def _look(beta: str, position: int) -> Look:
+def _look(beta: str, position: int) -> CurveLook:
     return BY_BETA.get(beta, OTHER_LOOKS[position % MOST_CURVES])
 
 
@@ -115,7 +115,7 @@ def _look(beta: str, position: int) -> Look:
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
+class AxisQuantity:
     """A quantity of an axis: its label, its SI unit, and the names of its column in one's own file.
 
     Its axis is in `unit`, which is `scale` times smaller than the SI unit.
@@ -142,10 +142,10 @@ class Quantity:
 _SHOWN = {"m": ("µm", 1e6), "s": ("ns", 1e9), "Pa": ("MPa", 1e-6), "kg/m^3": ("kg/m³", 1.0)}
 
 
-def _quantity(name: str, si: str, label: str = "", names: Sequence[str] = ()) -> Quantity:
+def _quantity(name: str, si: str, label: str = "", names: Sequence[str] = ()) -> AxisQuantity:
     words = name.replace("_", " ")
     unit, scale = _SHOWN.get(si, (si, 1.0))
-    return Quantity(label or words.capitalize(), tuple(names) or (words,), si, unit, scale)
+    return AxisQuantity(label or words.capitalize(), tuple(names) or (words,), si, unit, scale)
 
 
 TIME = _quantity("time", "s", names=("time", "t"))
@@ -153,7 +153,7 @@ SPEED = _quantity("velocity", "m/s", names=HEADS["velocity"])
 DEPTH = _quantity("depth", "m", "Penetration depth", HEADS["depth"])
 RATIO = _quantity("normalized_depth", "1", "Normalized depth X/R", ("normalized depth", "x/r"))
 STEP = _quantity("step", "s", "Time step", ("step", "time step", "dt"))
-ERROR = Quantity(
+ERROR = AxisQuantity(
     "Size of the error of the final depth", ("error", "error of depth"), "m", "nm", 1e9
 )
 UNCERTAINTY = _quantity("uncertainty", "m", names=HEADS["uncertainty"])
@@ -188,9 +188,9 @@ class Points:
     """One's own points: the name of their file, and columns [SI] by quantity, of equal length."""
 
     file: str
-    columns: Mapping[Quantity, Sequence[float]]
+    columns: Mapping[AxisQuantity, Sequence[float]]
 
-    def draw(self, panel: "Axes", x: Quantity, y: Quantity) -> None:
+    def draw(self, panel: "Axes", x: AxisQuantity, y: AxisQuantity) -> None:
         """Draw them on a panel of y against x, with bars for the uncertainty of a depth.
 
         Nothing is drawn if there is no column of one of the two.
@@ -201,10 +201,10 @@ class Points:
         if y is DEPTH and UNCERTAINTY in self.columns:
             bars = y.shown(self.columns[UNCERTAINTY])
         across, up = (quantity.shown(self.columns[quantity]) for quantity in (x, y))
-        _own_points(panel, across, up, bars, self.file)
+        _draw_own_points(panel, across, up, bars, self.file)
 
 
-def _own_points(panel: "Axes", x: Any, y: Any, bars: Any, label: str) -> None:
+def _draw_own_points(panel: "Axes", x: Any, y: Any, bars: Any, label: str) -> None:
     """Draw measured points: hollow, above all else, and with the id `data` in an SVG."""
     hollow = {"linestyle": "", "marker": "o", "markersize": 6, "markerfacecolor": "none"}
     settings: Any = {**hollow, "color": INK, "zorder": 5}
@@ -214,14 +214,14 @@ def _own_points(panel: "Axes", x: Any, y: Any, bars: Any, label: str) -> None:
     marks.set_gid("data")
 
 
-def read_points(path: Path, x: Quantity | None, ys: Sequence[Quantity]) -> Points:
+def read_points(path: Path, x: AxisQuantity | None, ys: Sequence[AxisQuantity]) -> Points:
     """Read one's own points from a file of columns (`replication.columns`), known by their heads.
 
     There must be a column of x, if it is not None, and of one of `ys` at least. Raises OSError, or
     ValueError that names the file and what it lacks.
     """
     columns = read_columns(path)
-    numbers: dict[Quantity, Sequence[float]] = {}
+    numbers: dict[AxisQuantity, Sequence[float]] = {}
     for quantity in (*([x] if x else ()), *ys, UNCERTAINTY):
         column = column_of(columns, quantity.names)
         if column is not None:
@@ -236,7 +236,7 @@ def read_points(path: Path, x: Quantity | None, ys: Sequence[Quantity]) -> Point
     return Points(path.name, numbers)
 
 
-def _head(quantity: Quantity) -> str:
+def _head(quantity: AxisQuantity) -> str:
     return f"{quantity.names[0]} [{quantity.unit.replace('µ', 'u').replace('³', '^3')}]"
 
 
@@ -329,7 +329,7 @@ def _over_exact(
     impact: Impact,
     end: float,
     line: Mapping[str, Any],
-    marks: Mapping[Quantity, Sequence[float]],
+    marks: Mapping[AxisQuantity, Sequence[float]],
     label: str,
     title: str,
     points: Points | None,
@@ -356,7 +356,7 @@ def _over_exact(
         return figure
 
 
-def _exact(impact: Impact, end: float) -> dict[Quantity, list[float]]:
+def _exact(impact: Impact, end: float) -> dict[AxisQuantity, list[float]]:
     """Return times from 0 to an end [s], with the exact depths and velocities: a smooth curve."""
     time = [end * k / (CURVE_POINTS - 1) for k in range(CURVE_POINTS)]
     depth, speed = [0.0] * CURVE_POINTS, [0.0] * CURVE_POINTS
@@ -392,10 +392,10 @@ def plot_sheet(sheet: Sheet, title: str = "", points: Points | None = None) -> "
 
 
 _PARTS = {
-    "time_step": ("time step", Look("#009e73", "-.", "^")),
-    "stop_rule": ("stop rule", Look("#cc79a7", ":", "D")),
-    "half_step": ("half step", Look("#e69f00", "--", "v")),
-    "rounding": ("rounding", Look(SHADE, ":", "x")),
+    "time_step": ("time step", CurveLook("#009e73", "-.", "^")),
+    "stop_rule": ("stop rule", CurveLook("#cc79a7", ":", "D")),
+    "half_step": ("half step", CurveLook("#e69f00", "--", "v")),
+    "rounding": ("rounding", CurveLook(SHADE, ":", "x")),
 }
 """The parts of an error (`replication.error.ladder`), in words, and how they are drawn."""
 
@@ -428,7 +428,7 @@ def plot_converge(
             own_errors = points.columns.get(ERROR)
             if own_errors is None:
                 own_errors = [depth - record["exact"] for depth in points.columns[DEPTH]]
-            _own_points(panel, STEP.shown(own_steps), _sizes(own_errors), None, points.file)
+            _draw_own_points(panel, STEP.shown(own_steps), _sizes(own_errors), None, points.file)
         panel.set_xticks(steps, [number(step, 3) for step in steps], minor=False)
         panel.xaxis.minorticks_off()
         panel.tick_params(axis="x", labelrotation=45 if len(steps) > 8 else 0)
@@ -481,9 +481,9 @@ def plot_fit(
         else:
             fitted = [final_depth(*m.impact, fit.resistance) for m in measurements]
             above.plot(x.shown(speeds), DEPTH.shown(fitted), label=words, **look.of_marks)
-        _own_points(above, x.shown(speeds), DEPTH.shown(depths), bars, file)
+        _draw_own_points(above, x.shown(speeds), DEPTH.shown(depths), bars, file)
         below.axhline(0, **look.of_line)
-        _own_points(below, x.shown(speeds), DEPTH.shown(fit.residuals), bars, file)
+        _draw_own_points(below, x.shown(speeds), DEPTH.shown(fit.residuals), bars, file)
         above.set_ylabel(DEPTH.title)
         below.set_ylabel(f"Measured less fitted [{DEPTH.unit}]")
         below.set_xlabel(x.title)
@@ -545,7 +545,7 @@ def check_sweep(axes: Mapping[str, int], samples: int, drawn: bool) -> None:
 def sweep_points(axes: Mapping[str, int], drawn: bool) -> Callable[[Path], Points]:
     """Return a reader of one's own points for the figure of a sweep."""
     x = None if drawn else INPUT[_across(axes)]
-    ys = (INPUT[_up(axes)],) if not drawn and _is_map(axes) else (DEPTH, RATIO)
+    ys = (INPUT[_vertical_input(axes)],) if not drawn and _is_map(axes) else (DEPTH, RATIO)
     return lambda path: read_points(path, x, ys)
 
 
@@ -559,7 +559,7 @@ def _is_map(axes: Mapping[str, int]) -> bool:
     return len(axes) == 2 and min(axes.values()) > MOST_CURVES
 
 
-def _up(axes: Mapping[str, int]) -> str:
+def _vertical_input(axes: Mapping[str, int]) -> str:
     """Return the input along the axis y of a map."""
     return next(name for name in axes if name != _across(axes))
 
@@ -587,7 +587,7 @@ def plot_sweep(
 
 def _series(
     shown: Mapping[str, int], axes: Mapping[str, int], results: Results
-) -> list[tuple[str, Look, tuple[int, ...]]]:
+) -> list[tuple[str, CurveLook, tuple[int, ...]]]:
     """Return the label, the look and the position of each combination of the values shown.
 
     `shown` are those of `axes` of which each combination has a curve of its own.
@@ -611,11 +611,11 @@ def _listed(name: str, axes: Mapping[str, int], results: Results) -> "npt.NDArra
     """Return the listed values of an input [SI], one for each of its positions."""
     position = [*axes].index(name)
     along = tuple(slice(None) if k == position else 0 for k in range(len(axes) + 1))
-    listed: npt.NDArray[np.float64] = _table(results[name], axes)[along]
+    listed: npt.NDArray[np.float64] = _grid(results[name], axes)[along]
     return listed
 
 
-def _table(column: Any, axes: Mapping[str, int]) -> "npt.NDArray[np.float64]":
+def _grid(column: Any, axes: Mapping[str, int]) -> "npt.NDArray[np.float64]":
     """Return a column in the shape of the listed inputs, with the samples last."""
     import numpy as np
 
@@ -641,11 +641,11 @@ def _curves(
     for panel, (column, y) in zip(panels, _RESULTS.items(), strict=True):
         for label, look, at in _series(others, axes, results):
             where: Any = (*at[:position], slice(None), *at[position:], 0)
-            exact = y.shown(_table(results[column], axes)[where])
+            exact = y.shown(_grid(results[column], axes)[where])
             mark = "" if sheet or len(inputs) > MARKS else look.marker
             panel.plot(inputs, exact, label=label or "exact", marker=mark, **look.of_line)
             if sheet:
-                marks, every = y.shown(_table(sheet[column], axes)[where]), _every(len(inputs))
+                marks, every = y.shown(_grid(sheet[column], axes)[where]), _every(len(inputs))
                 words = f"{label}, the sheet" if label else "the sheet"
                 panel.plot(inputs[::every], marks[::every], label=words, **look.of_marks)
         panel.set_ylabel(y.title)
@@ -687,12 +687,12 @@ def _contours(
     """Draw a map of the depth and one of X/R over two inputs, with labelled contours."""
     from matplotlib.colors import BoundaryNorm
 
-    across, up = _across(axes), _up(axes)
+    across, up = _across(axes), _vertical_input(axes)
     x, y = INPUT[across], INPUT[up]
     inputs = x.shown(_listed(across, axes, results)), y.shown(_listed(up, axes, results))
     figure, panels = _panels(title, len(_RESULTS))
     for panel, (column, quantity) in zip(panels, _RESULTS.items(), strict=True):
-        values = quantity.shown(_table(results[column], axes)[..., 0])
+        values = quantity.shown(_grid(results[column], axes)[..., 0])
         values = values if [*axes] == [up, across] else values.T
         if levels := _levels(values):
             shades: Any = {"cmap": "Greys", "alpha": 0.5, "extend": "both"}
@@ -740,7 +740,7 @@ def _histograms(
 
     figure, panels = _panels(title, len(_RESULTS), sharex=False)
     for panel, (column, quantity) in zip(panels, _RESULTS.items(), strict=True):
-        table = quantity.shown(_table(results[column], axes))
+        table = quantity.shown(_grid(results[column], axes))
         bins = min(60, max(10, round(math.sqrt(table.shape[-1]))))
         edges = np.linspace(table.min(), table.max(), bins + 1)
         if not edges[0] < edges[-1]:  # all results are the same number
@@ -756,7 +756,7 @@ def _histograms(
                 panel.axvline(value, **look.of_line, linewidth=width)
         if points and quantity in points.columns:
             values = quantity.shown(points.columns[quantity])
-            _own_points(panel, values, np.zeros(len(values)), None, points.file)
+            _draw_own_points(panel, values, np.zeros(len(values)), None, points.file)
         panel.set_xlabel(quantity.title)
         unit = f"1/{quantity.unit}" if quantity.unit != "1" else "1"
         panel.set_ylabel(f"Probability density [{unit}]")

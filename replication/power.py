@@ -34,7 +34,7 @@ class Plant(NamedTuple):
     edit: str
 
 
-class Counts(msgspec.Struct, kw_only=True):
+class PlantCounts(msgspec.Struct, kw_only=True):
     """How many misprints were planted, how many of them are visible, and what the audit noticed.
 
     `detected`: something fails because of the misprint; `accused_wrongly`: the first repair that
@@ -53,13 +53,13 @@ class Counts(msgspec.Struct, kw_only=True):
     controls: int = 0
     false_alarms: int = 0
 
-    def add(self, more: "Counts") -> None:
+    def add(self, more: "PlantCounts") -> None:
         """Add other counts to these."""
-        for name in Counts.__struct_fields__:
+        for name in PlantCounts.__struct_fields__:
             setattr(self, name, getattr(self, name) + getattr(more, name))
 
 
-class Trial(NamedTuple):
+class MisprintJudged(NamedTuple):
     """The outcome of a planted misprint: what fails only because of it, and the counts for it.
 
     `first` is the first repair that the audit lists, if there is one. `why` says why that is not
@@ -67,7 +67,7 @@ class Trial(NamedTuple):
     """
 
     failing: set[str]
-    counts: Counts
+    counts: PlantCounts
     first: Repair | None = None
     why: str = ""
 
@@ -87,15 +87,15 @@ class NotFirst(msgspec.Struct, kw_only=True):
     why: str
 
 
-class Power(Counts, kw_only=True):
+class Power(PlantCounts, kw_only=True):
     """The counts of a sample, in all, by kind of entry and by kind of edit.
 
     Beside them stands what is unnoticed, and what is noticed and not repaired first.
     """
 
     seed: int
-    by_kind: dict[str, Counts] = msgspec.field(default_factory=dict)
-    by_edit: dict[str, Counts] = msgspec.field(default_factory=dict)
+    by_kind: dict[str, PlantCounts] = msgspec.field(default_factory=dict)
+    by_edit: dict[str, PlantCounts] = msgspec.field(default_factory=dict)
     unnoticed: list[dict[str, str]] = msgspec.field(default_factory=list)
     not_first: list[NotFirst] = msgspec.field(default_factory=list)
 
@@ -128,7 +128,7 @@ class Power(Counts, kw_only=True):
 
     def table(self) -> Table:
         """Return rates in percent of the visible misprints, by kind of entry and of edit."""
-        groups: dict[str, Counts] = {"all": self}
+        groups: dict[str, PlantCounts] = {"all": self}
         for word, parts in (("in", self.by_kind), ("by", self.by_edit)):
             groups |= {f"{word} {name}": parts[name] for name in sorted(parts)}
         heads = (
@@ -218,7 +218,7 @@ def is_false_alarm(truth: Audit, control: Plant) -> bool:
     )
 
 
-def trial(truth: Audit, plant: Plant) -> Trial:
+def judge_misprint(truth: Audit, plant: Plant) -> MisprintJudged:
     """Judge everything that depends on a planted misprint, and compare with the true report."""
     ledger = truth.ledger.misprint(plant.entry, plant.text)
     audit, claims = Audit(ledger, every_convention=False), dependents(truth.ledger, plant.entry)
@@ -228,7 +228,7 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     repairs = audit.explainer.ranked(sorted(failing))
     is_true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
     visible = bool(failing) or _is_visible(truth, ledger, claims)
-    counts = Counts(
+    counts = PlantCounts(
         planted=1,
         invisible=not visible,
         visible=visible,
@@ -239,7 +239,9 @@ def trial(truth: Audit, plant: Plant) -> Trial:
     )
     first = next(iter(repairs), None)
     missed = failing and not counts.repaired_first
-    return Trial(failing, counts, first, why_not_first(truth, plant, repairs) if missed else "")
+    return MisprintJudged(
+        failing, counts, first, why_not_first(truth, plant, repairs) if missed else ""
+    )
 
 
 def why_not_first(truth: Audit, plant: Plant, repairs: Sequence[Repair]) -> str:
@@ -301,7 +303,7 @@ def _is_visible(truth: Audit, ledger: Ledger, claims: set[str]) -> bool:
     )
 
 
-def power(
+def measure_power(
     ledger: Ledger, sample: int, seed: int, progress: Callable[[Iterable[Plant]], Iterable[Plant]]
 ) -> Power:
     """Plant random samples of misprints and of harmless rewritings, one text at a time.
@@ -317,9 +319,9 @@ def power(
     truth, result = Audit(ledger, every_convention=False), Power(seed=seed)
     for plant in progress([*misprints, *sorted(harmless)]):
         if plant in harmless:
-            counts = Counts(controls=1, false_alarms=is_false_alarm(truth, plant))
+            counts = PlantCounts(controls=1, false_alarms=is_false_alarm(truth, plant))
         else:
-            failing, counts, first, why = trial(truth, plant)
+            failing, counts, first, why = judge_misprint(truth, plant)
             if counts.visible and not failing:
                 result.unnoticed.append(plant._asdict())
             if why:
@@ -327,7 +329,7 @@ def power(
                 shown = NotFirst(**plant._asdict(), first_entry=entry, first_text=text, why=why)
                 result.not_first.append(shown)
         kind = ledger.claims[plant.entry].kind if plant.entry in ledger.claims else "equation"
-        by_kind = result.by_kind.setdefault(kind, Counts())
-        for total in (result, by_kind, result.by_edit.setdefault(plant.edit, Counts())):
+        by_kind = result.by_kind.setdefault(kind, PlantCounts())
+        for total in (result, by_kind, result.by_edit.setdefault(plant.edit, PlantCounts())):
             total.add(counts)
     return result

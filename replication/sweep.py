@@ -22,7 +22,7 @@ from reference.scheme import Scheme
 from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
 from replication.models.estimates import particle_velocity
-from replication.models.impact import Impact, InputError, check, particle_mass
+from replication.models.impact import Impact, InputError, check_inputs, particle_mass
 from replication.reading import check_keys, place, quoted, read_number, read_numbers, tables_of
 from spreadsheets.safely import check_target, draft_of
 
@@ -62,7 +62,7 @@ def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
 
 
 @dataclass(frozen=True, slots=True)
-class Source:
+class InputValues:
     """The values of one input, all within `bounds`.
 
     For a list of `count` values, `at` returns those at positions counted from 0. For a
@@ -85,7 +85,7 @@ class Plan:
     if a combination of inputs leaves the range that `Impact` allows.
     """
 
-    sources: dict[str, Source]
+    sources: dict[str, InputValues]
     by_mass: Mapping[str, float] | None
     samples: int
     seed: int
@@ -237,7 +237,7 @@ def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
     return _whole_number("samples", settings["samples"], 1, MAX_CASES), seed
 
 
-def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], dict[str, float] | None]:
+def _sources(table: Table, case: Impact) -> tuple[dict[str, InputValues], dict[str, float] | None]:
     """Return the sources of all inputs: those of the table in its order, others from the case."""
     check_keys(table, [], INPUTS)
     replaced = ("beta", "flow_stress") if "resistance" in table else ("resistance",)
@@ -251,11 +251,11 @@ def _sources(table: Table, case: Impact) -> tuple[dict[str, Source], dict[str, f
                 sources[name] = read_source(name, value)
     for name, source in sources.items():
         for number in source.bounds:
-            check({name: number})
+            check_inputs({name: number})
     return sources, by_mass
 
 
-def read_source(name: str, value: Any) -> Source:
+def read_source(name: str, value: Any) -> InputValues:
     """Read the source of an input, which may still be out of range. Raises ValueError.
 
     >>> read_source("radius", {"from": "1 um", "to": "5 um", "points": 3}).bounds
@@ -272,7 +272,7 @@ def read_source(name: str, value: Any) -> Source:
         values = _spaced(value, INPUTS[name])
     else:
         raise ValueError("give from, to and points; or distribution; or, by Eq. 1, average_mass")
-    return Source((float(values.min()), float(values.max())), values.take, len(values))
+    return InputValues((float(values.min()), float(values.max())), values.take, len(values))
 
 
 def _spaced(table: Table, unit: str) -> Floats:
@@ -294,7 +294,7 @@ def _spaced(table: Table, unit: str) -> Floats:
     return values.clip(min(first, last), max(first, last))
 
 
-def _drawn(table: Table, unit: str) -> Source:
+def _drawn(table: Table, unit: str) -> InputValues:
     """Read a distribution."""
     kind, kinds = table["distribution"], ("normal", "lognormal", "uniform", "loguniform")
     if kind not in kinds:
@@ -315,7 +315,7 @@ def _drawn(table: Table, unit: str) -> Source:
 
 def _distribution(
     lower: float, upper: float, log: bool, mean: float | None, deviation: float
-) -> Source:
+) -> InputValues:
     """Return the distribution of a quantity or, if `log`, of its logarithm, by its quantiles.
 
     It is normal if there is a mean, else uniform. It is truncated at lower and upper, as if values
@@ -349,7 +349,7 @@ def _distribution(
     least, greatest = np.clip(wide, lower, upper).tolist()
     if least < 0:
         raise ValueError(f"values down to {least:.3g} would be drawn: give a lower end")
-    return Source((least, greatest), quantile)
+    return InputValues((least, greatest), quantile)
 
 
 def _by_mass(name: str, table: Table) -> dict[str, float]:
@@ -359,7 +359,7 @@ def _by_mass(name: str, table: Table) -> dict[str, float]:
     units = {"average_velocity": "m/s", "average_mass": "kg"}
     check_keys(table, units)
     numbers = read_numbers(table, units)
-    check(numbers)
+    check_inputs(numbers)
     return numbers
 
 
@@ -375,7 +375,7 @@ def _whole_number(key: str, value: Any, least: int, greatest: int) -> int:
 # Writing the file of the cases, completely or not at all
 
 
-def write(
+def write_sweep(
     plan: Plan,
     path: Path,
     *,
@@ -396,7 +396,7 @@ def write(
         pa.field(name, types.get(name, pa.float64()), nullable=False, metadata={"unit": unit})
         for name, unit in plan.columns.items()
     ]
-    schema = pa.schema(fields, metadata=provenance(plan))
+    schema = pa.schema(fields, metadata=sweep_provenance(plan))
     numbers = range(plan.blocks) if numbers is None else numbers
     with (
         draft_of(path) as draft,
@@ -428,7 +428,7 @@ def _writer(suffix: str, file: Any, plan: Plan, schema: Any) -> Any:
     return ParquetWriter(file, schema, compression="zstd", use_dictionary=False)
 
 
-def provenance(plan: Plan) -> dict[str, str]:
+def sweep_provenance(plan: Plan) -> dict[str, str]:
     """Return the origin of a file: the program's version and the SHA-256 of the TOML file."""
     return {"coldspray": version("coldspray"), "sweep_sha256": plan.digest}
 

@@ -34,7 +34,7 @@ from spreadsheets.sheets.audit import AS_PRINTED, LIVE_VERDICTS, OTHERWISE, Audi
 from spreadsheets.sheets.case import CaseSheet, prepared_rows
 from spreadsheets.sheets.convergence import LEVELS, NO_ORDER, run_inputs
 from spreadsheets.sheets.figure_5 import POINTS
-from spreadsheets.sheets.inputs import Input, inputs_of
+from spreadsheets.sheets.inputs import InputLine, input_lines
 from spreadsheets.sheets.solve import MEASURED
 from spreadsheets.sheets.table_a1 import ABOVE, TABLE_ROWS
 from spreadsheets.sheets.table_a1_check import DIGITS as DECIMALS
@@ -64,7 +64,7 @@ class Workbook:
         return emit.cell_values(self.plan, self.values)
 
 
-def build(
+def build_workbook(
     case: Impact | None = None,
     scheme: Scheme | str = Scheme.PUBLISHED,
     rows: int | None = None,
@@ -80,7 +80,7 @@ def build(
     finished audit, which is made if it is needed but not given. Each input is rounded to a value
     that its cell can hold. Raises ValueError for an input outside of its limits, or too few rows.
 
-    >>> book = build(BETA_5)
+    >>> book = build_workbook(BETA_5)
     >>> place = book.plan.where["depth_um"]
     >>> place[0], f"{book.values['depth_um']:.2f}"
     ('Sheet beta 5', '7.67')
@@ -88,7 +88,7 @@ def build(
     ledger, scheme, audited = ledger or load(), Scheme(scheme), None
     impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
     pages = [_case_sheet(slug, impact, scheme) for slug, impact in impacts.items()]
-    typed = _typed_inputs(inputs_of(pages, report=case is None), impacts, ledger)
+    typed = _typed_inputs(input_lines(pages, report=case is None), impacts, ledger)
     si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
     # The cases are run with the inputs in their cells, and share all of these but beta.
     shared = {
@@ -160,8 +160,8 @@ def _typed(si: float, unit: str) -> float:
 
 
 def _typed_inputs(
-    blocks: Mapping[str, Sequence[Input]], impacts: Mapping[str, Impact], ledger: Ledger
-) -> dict[Input, float]:
+    blocks: Mapping[str, Sequence[InputLine]], impacts: Mapping[str, Impact], ledger: Ledger
+) -> dict[InputLine, float]:
     """Return the number to type into each input's cell. Raises ValueError outside of its limits."""
     typed = {}
     for entry in chain.from_iterable(blocks.values()):
@@ -209,7 +209,7 @@ Runs = Sequence[tuple[CaseSheet, Sheet]]
 
 
 def _values(
-    ledger: Ledger, runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
+    ledger: Ledger, runs: Runs, typed: Mapping[InputLine, float], si: Mapping[str, float]
 ) -> Tree:
     """Return every value but the live verdicts; `si` has the inputs in SI units, by name."""
     fine = [(page, sheet) for page, sheet in runs if not page.coarse]
@@ -233,7 +233,7 @@ def _values(
 
 
 def _inputs(
-    ledger: Ledger, runs: Runs, typed: Mapping[Input, float], si: Mapping[str, float]
+    ledger: Ledger, runs: Runs, typed: Mapping[InputLine, float], si: Mapping[str, float]
 ) -> Tree:
     """Return the values of the sheet Inputs: typed, in use, and what follows from them."""
     first = runs[0][1].impact

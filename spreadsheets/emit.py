@@ -50,7 +50,7 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
     return shown
 
 
-def check(path: Path, *, force: bool = False) -> None:
+def check_writable(path: Path, *, force: bool = False) -> None:
     """Raise OSError unless a workbook can be written to `path`.
 
     An existing file may be replaced only if it `is_own`, or with `force`.
@@ -88,13 +88,13 @@ def is_own(path: Path) -> bool:
     How the parts are compressed does not matter, as it depends on the version of zlib.
     """
     try:
-        parts = _parts(path.read_bytes())
+        parts = _archive_parts(path.read_bytes())
     except UNREADABLE:
         return False
     return _SEALED in parts and _sealed(parts) == parts
 
 
-def _parts(content: bytes) -> dict[str, bytes]:
+def _archive_parts(content: bytes) -> dict[str, bytes]:
     with zipfile.ZipFile(BytesIO(content)) as archive:
         return {name: archive.read(name) for name in archive.namelist()}
 
@@ -166,7 +166,7 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
             drawn = sheet.chart.sheet or sheet.name
             _draw(book, page, drawn, sheet.chart, shown[drawn], values)
     book.close()
-    parts = _parts(file.getvalue())
+    parts = _archive_parts(file.getvalue())
     corrected = {name: _corrected(name, part) for name, part in parts.items()}
     return _zipped(_sealed(corrected))
 

@@ -105,7 +105,7 @@ class Rule(NamedTuple):
     style: str
 
 
-class Curve(NamedTuple):
+class ChartCurve(NamedTuple):
     """A curve of a chart: the place of its name, and the ranges of x and y, such as "A5:A25".
 
     beta: "3" or "5", of the report's case that it shows or is compared with: it sets the look.
@@ -130,7 +130,7 @@ class Chart:
     x_title: str
     y_title: str
     size: tuple[int, int]
-    curves: Sequence[Curve]
+    curves: Sequence[ChartCurve]
     describe: Callable[[Mapping[str, Value]], str]
     logarithmic: bool = False
     sheet: str = ""

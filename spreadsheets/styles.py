@@ -42,7 +42,7 @@ RULES: Mapping[str, Mapping[str, Any]] = {
 """The styles of rules, which name only the properties that they change."""
 
 
-class Look(NamedTuple):
+class ChartCurveLook(NamedTuple):
     """How a curve of a chart is drawn."""
 
     color: str
@@ -50,9 +50,9 @@ class Look(NamedTuple):
     marker: str
 
 
-CURVES: Mapping[str, Look] = {
-    "3": Look("#d55e00", "solid", "circle"),
-    "5": Look("#0072b2", "dash", "square"),
+CURVES: Mapping[str, ChartCurveLook] = {
+    "3": ChartCurveLook("#d55e00", "solid", "circle"),
+    "5": ChartCurveLook("#0072b2", "dash", "square"),
 }
 """The curve of a case by its beta, in the workbook, on the page and in all other figures.
 

@@ -45,7 +45,7 @@ condition numbers of at most 2 for the first and 1 for the second, so less than 
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class CellDifference:
     """A cell whose value is not the expected one. None stands for a blank cell."""
 
     sheet: str
@@ -56,7 +56,7 @@ class Difference:
 
 def compare(
     expected: Values, recalculated: Values, tolerances: Mapping[Place, float] | None = None
-) -> list[Difference]:
+) -> list[CellDifference]:
     """Return the cells, of either map, whose values differ, in the order of `expected`.
 
     Numbers must be the same double, except in cells for which `tolerances` gives the largest
@@ -75,7 +75,7 @@ def compare(
             if isinstance(right, float) and isinstance(value, float):
                 distance = abs(right - value)
             if distance > allowed.get((sheet, cell), 0.0):
-                differences.append(Difference(sheet, cell, right, value))
+                differences.append(CellDifference(sheet, cell, right, value))
     return differences
 
 
@@ -145,7 +145,7 @@ class EngineCheck:
     seconds: float | None = None
     cells: int = 0
     rounded: int = 0
-    wrong: list[Difference] = field(default_factory=list)
+    wrong: list[CellDifference] = field(default_factory=list)
 
     @property
     def passed(self) -> bool:

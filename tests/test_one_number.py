@@ -18,7 +18,7 @@ from replication.audit.assessment import Verdict
 from replication.audit.audit import Audit
 from replication.audit.record import Record
 from replication.report import contents, summary
-from replication.workbook import build
+from replication.workbook import build_workbook
 from spreadsheets.sheets import cells_of_claims
 
 DEPTH = "depth-beta-5"
@@ -108,7 +108,7 @@ def test_the_terminal_shows_it(text: str, verdict: Verdict, audited: Record) -> 
 def test_the_workbook_has_it_beside_the_cell_that_computes_it(
     text: str, verdict: Verdict, audited: Record, ledger: Ledger
 ) -> None:
-    cells = build(record=audited, ledger=ledger).cells
+    cells = build_workbook(record=audited, ledger=ledger).cells
     name, _, address = cells_of_claims()[DEPTH].partition("!")
     computed = cells[name][address]
     assert isinstance(computed, float)

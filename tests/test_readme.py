@@ -18,6 +18,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from running import coldspray
 
+from replication import BETA_3, BETA_5, final_depth, run, stop_time
 from replication.audit.record import Record
 from replication.power import measured_rates
 from replication.report.document import audit_document
@@ -131,10 +132,31 @@ def test_times_are_those_of_the_whole_table() -> None:
     assert {line.rstrip() for line in block.splitlines()} <= {line.rstrip() for line in whole}
 
 
+def test_the_changelog_has_the_depths_and_times_of_the_models() -> None:
+    """When one of them moves, the changelog of the new version says so."""
+    text = (ROOT / "CHANGELOG.md").read_text("utf-8")
+    rows = re.findall(r"^\| (.+) \| ([\d.]+) [µn][ms] \| ([\d.]+) [µn][ms] \|$", text, re.MULTILINE)
+    cases = (BETA_3, BETA_5)
+    stops = [float(stop_time(**case.motion)) for case in cases]
+    computed = {
+        "final depth of the sheet, 0.2 ns": [run(case).final_depth * 1e6 for case in cases],
+        "the same, drag at the middle velocity": [
+            run(case, scheme="centered").final_depth * 1e6 for case in cases
+        ],
+        "final depth at rest, without time steps": [
+            float(final_depth(**case.motion)) * 1e6 for case in cases
+        ],
+        "time until rest": [stop * 1e9 for stop in stops],
+    }
+    assert {name: [float(number) for number in numbers] for name, *numbers in rows} == {
+        name: [float(f"{value:.7g}") for value in values] for name, values in computed.items()
+    }
+
+
 @pytest.mark.parametrize(
     "document",
-    ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/check.md", "docs/design.md",
-     "docs/questions.md", "docs/sweeps/README.md"],
+    ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/check.md", "docs/corrections.md",
+     "docs/design.md", "docs/questions.md", "docs/sweeps/README.md"],
 )  # fmt: skip
 def test_links_and_paths_lead_somewhere(document: str) -> None:
     text = (ROOT / document).read_text("utf-8")

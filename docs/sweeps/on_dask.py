@@ -12,7 +12,7 @@ from pathlib import Path
 
 from distributed import Client, as_completed
 
-from replication.sweep import Plan, read_plan, write
+from replication.sweep import Plan, read_plan, write_sweep
 
 BLOCKS = 64  # per task: four million cases, about 130 MB
 
@@ -21,7 +21,7 @@ def write_part(plan: Plan, folder: Path, first: int) -> Path:
     """Write the part that begins with block `first`, unless it exists."""
     part = folder / f"part-{first:08}.parquet"
     if not part.exists():
-        write(plan, part, numbers=range(first, min(first + BLOCKS, plan.blocks)))
+        write_sweep(plan, part, numbers=range(first, min(first + BLOCKS, plan.blocks)))
     return part
 
 

@@ -5,7 +5,7 @@ compared all the same: with a range that the report states elsewhere, with the m
 scale, and with rules and sheets that public sources print. Each has a function of its id.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from fractions import Fraction
 from math import cbrt, pi
 
@@ -87,3 +87,10 @@ CROSS_CHECKS: dict[str, Callable[[Ledger], CrossCheck]] = {
     "brinell-ratio": brinell_ratio,
 }
 """The function that compares each of these numbers."""
+
+COMPARED_WITH: dict[str, Collection[str]] = {
+    "outlier-volume": ("particle-size-least", "particle-size-greatest"),
+    "autodyne-time": ("mean-diameter", "autodyne-diameter", *claims_of_case(5).values()),
+    "brinell-ratio": (),
+}
+"""The other claims of the report that its function reads: with them its verdict may change."""

@@ -12,10 +12,11 @@ from itertools import pairwise, product
 from string import digits
 
 from reference.derivations import derived_from, premises_of
-from reference.enclosure import Solutions, solve
+from reference.enclosure import Solutions, find_solutions
 from reference.ledger import INFERRED, Claim, Ledger
 from reference.printed import parse
 from reference.units import to_si
+from replication.audit.crosschecks import COMPARED_WITH
 from replication.audit.ranking import forms_beside, rank
 from replication.audit.record import BackSolved, Proof, Repair
 from replication.audit.verdict import (
@@ -32,7 +33,8 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
     """Return the claims whose verdicts may change with a claim or an equation, itself included.
 
     A claim that rests on an inferred input depends on the evidence for that input, and on all that
-    the evidence rests on. An input that other claims confirm depends on those claims.
+    the evidence rests on. An input that other claims confirm depends on those claims, and a number
+    that is compared with others depends on them.
     """
     within = ledger.equation_of(name)
     direct = {
@@ -44,6 +46,8 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
         if direct & set(inferred.evidence):
             unknown = INFERRED + key
             direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
+            direct |= {claim for claim, claims in COMPARED_WITH.items() if unknown in claims}
+    direct |= {claim for claim, claims in COMPARED_WITH.items() if name in claims}
     return direct | {c.id for c in ledger.claims.values() if direct & set(c.shown_by)}
 
 
@@ -99,7 +103,7 @@ class Explainer:
         function = self.ledger.function(claim, reading=reading)
         low, high, _ = self.ledger.search(name)
         budget = SHEET_BUDGET if claim.by_whole_sheet else _BUDGET
-        return solve(function, name, (low, high), claim.target(), budget, others)
+        return find_solutions(function, name, (low, high), claim.target(), budget, others)
 
     # Misprints
 
@@ -179,12 +183,15 @@ class Explainer:
             equations = derived_from(within)
             touched |= equations
             failing |= {name for name in equations if not follows(changed, name)}
+        compared = touched.intersection(COMPARED_WITH)
+        failing |= {name for name in compared if is_contradicted(changed, name)}
         return (self._failing_now - touched) | failing
 
     @cached_property
     def _failing_now(self) -> set[str]:
         """All claims and equations that fail in the ledger as it is."""
         claims = disagreeing(self.ledger, self.ledger.claims, self.judge.assumed)
+        claims |= {name for name in COMPARED_WITH if is_contradicted(self.ledger, name)}
         return claims | {name for name in self.ledger.equations if not follows(self.ledger, name)}
 
     # One misprint behind several failures
@@ -258,17 +265,17 @@ def edits(text: str) -> Iterator[tuple[str, str]]:
     >>> [text for text, kind in edits("3E+08") if kind == "exponent changed"]
     ['3E+07', '3E+09', '3E-08']
     """
-    seen, original = {text}, _number(text)
+    seen, original = {text}, _number_and_digits(text)
     for kind, edit in _EDITS.items():
         for edited in edit(text):
             if edited in seen or _ODD.match(edited):
                 continue
             seen.add(edited)
-            if _number(edited) not in (None, original):
+            if _number_and_digits(edited) not in (None, original):
                 yield edited, kind
 
 
-def _number(text: str) -> tuple[Fraction, tuple[Fraction, ...]] | None:
+def _number_and_digits(text: str) -> tuple[Fraction, tuple[Fraction, ...]] | None:
     """Return a text's value and the units its last digit may have; None if it is no number."""
     try:
         printed = parse(text)
@@ -277,14 +284,14 @@ def _number(text: str) -> tuple[Fraction, tuple[Fraction, ...]] | None:
     return printed.value, printed.quanta
 
 
-def _digits(text: str) -> list[int]:
+def _digit_positions(text: str) -> list[int]:
     """Return the positions of the mantissa's digits; `_shifted` edits the exponents."""
     power = _EXPONENT.search(text)
     return [k for k, c in enumerate(text) if c.isdigit() and (power is None or k < power.start())]
 
 
 def _swapped(text: str) -> Iterator[str]:
-    for first, second in pairwise(_digits(text)):
+    for first, second in pairwise(_digit_positions(text)):
         between = text[first + 1 : second]
         if between in ("", "."):
             yield text[:first] + text[second] + between + text[first] + text[second + 1 :]
@@ -304,7 +311,7 @@ def _shifted(text: str) -> Iterator[str]:
 _WORDS = ("one two three four five", "third half", "one-sixth one-fifth", "twice thrice")
 
 
-def _words(text: str) -> Iterator[str]:
+def _number_words(text: str) -> Iterator[str]:
     """Yield the words that may be mistaken for a number word."""
     for words in map(str.split, _WORDS):
         if text.lower() in words:
@@ -313,7 +320,7 @@ def _words(text: str) -> Iterator[str]:
 
 def _replaced(text: str, options: Callable[[str], Iterable[str]]) -> Iterator[str]:
     """Yield the text with one digit of the mantissa replaced by each of its options."""
-    for k in _digits(text):
+    for k in _digit_positions(text):
         for option in options(text[k]):
             yield text[:k] + option + text[k + 1 :]
 
@@ -325,7 +332,7 @@ _EDITS: Mapping[str, Callable[[str], Iterable[str]]] = {
         re.sub(r"(?<=.)(\d)\.", r".\1", text), re.sub(r"\.(\d)", r"\1.", text),
     ),
     "exponent changed": _shifted,
-    "other word": _words,
+    "other word": _number_words,
     "digit doubled": lambda text: _replaced(text, lambda old: [old + old]),
     "digit changed": lambda text: _replaced(text, lambda _: digits),
     "digit inserted": lambda text: _replaced(

@@ -8,7 +8,7 @@ from functools import cache, cached_property
 from msgspec.structs import replace
 
 from reference.arithmetic import Arithmetic, Function, Number
-from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, satisfying, solve
+from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, find_solutions, satisfying
 from reference.ledger import INFERRED, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
@@ -61,7 +61,7 @@ class Inference:
             printed = {key: ledger.value(key) for key in resting.entries if key != name}
             function, search = ledger.function(resting, scheme=scheme), self.entry.search
             target = claim.target(rounding)
-            self.by_claim[claim.id] = solve(function, name, search, target, others=printed)
+            self.by_claim[claim.id] = find_solutions(function, name, search, target, others=printed)
         values = sorted({low for own in self.by_claim.values() for low, _ in own.inner})
         sets = (tuple(c for c, own in self.by_claim.items() if own.admits(x)) for x in values)
         self.agreeing = max(sets, key=len, default=())
@@ -103,7 +103,7 @@ class Inference:
         for shown in map(self.ledger.claims.__getitem__, claim.shown_by):
             if low != high and shown.entries == [name]:
                 function = self.ledger.function(shown)
-                allowed = solve(function, name, (low, high), shown.target()).outer
+                allowed = find_solutions(function, name, (low, high), shown.target()).outer
                 low, high = (allowed[0][0], allowed[-1][1]) if allowed else (low, high)
         return low, high
 

@@ -81,19 +81,21 @@ def rank(
     - the repaired number has one of the `forms` that numbers beside it have,
     - it makes a number that nothing computes rounder (a slip seldom does so); a computed one with
       fewer digits only has less to agree with,
-    - it changes what is failing itself, not what that rests on,
+    - it changes what is failing itself, or a constant in it, not what that rests on,
     - its kind of edit has few texts, and so seldom fits by accident: `kinds` has these first,
     - the number changes less.
     """
     left, unlike, digits, apart = len(repair.failing), False, 0, 0.0
     if repair.entry in ledger.claims:
-        changed = ledger.misprint(repair.entry, repair.text)
-        left += is_contradicted(changed, repair.entry) - is_contradicted(ledger, repair.entry)
+        if ledger.sources_of(repair.entry):
+            changed = ledger.misprint(repair.entry, repair.text)
+            left += is_contradicted(changed, repair.entry) - is_contradicted(ledger, repair.entry)
         unlike = bool(forms) and form(repair.text) not in forms
         apart = distance(repair.text, repair.original)
         if ledger.claims[repair.entry].computation is None:
             digits = significant(repair.text) - significant(repair.original)
     return (
-        repair.reading, left, unlike, digits, repair.entry != failing,
+        repair.reading, left, unlike, digits,
+        failing not in (repair.entry, ledger.equation_of(repair.entry)),
         kinds.index(repair.kind), apart, repair.entry, repair.text,
     )  # fmt: skip

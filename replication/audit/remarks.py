@@ -26,7 +26,7 @@ def figures(results: Results, claim: Claim) -> list[Figure]:
     return REMARKS[claim.id](results) if claim.kind == "remark" else []
 
 
-def figure(means: str, unit: str, compute: Callable[..., float], *arguments: Any) -> Figure:
+def quantified(means: str, unit: str, compute: Callable[..., float], *arguments: Any) -> Figure:
     """Return a figure with the computed number, in the unit; None if it has no finite value."""
     try:
         value = float(compute(*arguments))
@@ -50,8 +50,8 @@ def coarse_step(results: Results) -> list[Figure]:
         words = f"beta = {beta}, drag at the {scheme.drag_at} velocity"
         for step in ("a-step", "coarse-step"):
             means = f"final depth at {results.text(step)} ns, {words}"
-            shown.append(figure(means, "um", micrometers, beta, scheme, step))
-        shown.append(figure(f"change, {words}", "percent", change, beta, scheme))
+            shown.append(quantified(means, "um", micrometers, beta, scheme, step))
+        shown.append(quantified(f"change, {words}", "percent", change, beta, scheme))
     return shown
 
 
@@ -65,16 +65,16 @@ def profile_consistent(results: Results) -> list[Figure]:
         return 2 * results["profile-depth"] / results["observed-depth-ratio"] * 1e6
 
     return [
-        figure("X/R of that profile for a mean particle", "1", of_mean_particle),
-        figure("X/R observed", "1", results.__getitem__, "observed-depth-ratio"),
-        figure("diameter of a particle for which the profile has that X/R", "um", diameter),
+        quantified("X/R of that profile for a mean particle", "1", of_mean_particle),
+        quantified("X/R observed", "1", results.__getitem__, "observed-depth-ratio"),
+        quantified("diameter of a particle for which the profile has that X/R", "um", diameter),
     ]
 
 
 def smaller_faster(results: Results) -> list[Figure]:
     """Section 2: "the smaller particles have a higher velocity than the mean", by Eq. 1."""
     return [
-        figure(
+        quantified(
             f"velocity of the {which} particle of the 521-m/s data by {law}", "m/s",
             stream_velocity, results, size, power,
         )
@@ -108,7 +108,7 @@ def large_difference(results: Results) -> list[Figure]:
         return results[f"ratio-beta-{beta}"] / results["observed-ratio"]
 
     means = "X/R of the model over the observed one, beta = {}"
-    return [figure(means.format(beta), "1", over_observed, beta) for beta in BETAS]
+    return [quantified(means.format(beta), "1", over_observed, beta) for beta in BETAS]
 
 
 def closest_approach(results: Results) -> list[Figure]:
@@ -118,7 +118,7 @@ def closest_approach(results: Results) -> list[Figure]:
         def less_observed() -> float:
             return compute(*arguments) - results["observed-depth-ratio"]
 
-        return figure(f"X/R less the observed one, {means}", "1", less_observed)
+        return quantified(f"X/R less the observed one, {means}", "1", less_observed)
 
     def exact(beta: int) -> float:
         return exact_ratio(case(results, beta))
@@ -148,7 +148,7 @@ def codes_overestimate(results: Results) -> list[Figure]:
         return 100 * (results[claim] / results["observed-depth-ratio"] - 1)
 
     means = "{}'s X/R over the observed one, less 1"
-    return [figure(means.format(code), "percent", excess, claim) for code, claim in CODES]
+    return [quantified(means.format(code), "percent", excess, claim) for code, claim in CODES]
 
 
 def deeper_craters(results: Results) -> list[Figure]:
@@ -158,7 +158,7 @@ def deeper_craters(results: Results) -> list[Figure]:
         return exact_ratio(case(results, 5, velocity=stream_velocity(results, size, power)))
 
     return [
-        figure(
+        quantified(
             f"exact X/R of the {which} particle of the 521-m/s data, velocity by {law}, beta = 5",
             "1", ratio, size, power,
         )
@@ -178,8 +178,8 @@ def size_effect(results: Results) -> list[Figure]:
     sizes = ("particle-size-least", "mean-diameter", "particle-size-greatest")
     means = "X/R of the sheet, beta = 5, particles of {} um"
     any_size = "exact X/R, beta = 5, for every size: R cancels from Eqs. 12 and 13"
-    shown = [figure(means.format(results.text(size)), "1", in_sheet, size) for size in sizes]
-    return [*shown, figure(any_size, "1", exact)]
+    shown = [quantified(means.format(results.text(size)), "1", in_sheet, size) for size in sizes]
+    return [*shown, quantified(any_size, "1", exact)]
 
 
 def velocity_effect(results: Results) -> list[Figure]:
@@ -193,8 +193,8 @@ def velocity_effect(results: Results) -> list[Figure]:
         return 100 * (ratio(ends[1]) / ratio(ends[0]) - 1)
 
     means = "exact X/R at {} m/s, beta = 5"
-    shown = [figure(means.format(results.text(end)), "1", ratio, end) for end in ends]
-    return [*shown, figure("rise between them", "percent", rise)]
+    shown = [quantified(means.format(results.text(end)), "1", ratio, end) for end in ends]
+    return [*shown, quantified("rise between them", "percent", rise)]
 
 
 def velocity_distribution(results: Results) -> list[Figure]:
@@ -215,8 +215,10 @@ def velocity_distribution(results: Results) -> list[Figure]:
         return (results["velocity-521"] - needed()) / results["velocity-deviation"]
 
     return [
-        figure("velocity at which the exact X/R is 0.3, beta = 5", "m/s", needed),
-        figure("its distance from the average of 521 m/s in stated deviations", "1", deviations),
+        quantified("velocity at which the exact X/R is 0.3, beta = 5", "m/s", needed),
+        quantified(
+            "its distance from the average of 521 m/s in stated deviations", "1", deviations
+        ),
     ]
 
 
@@ -228,8 +230,8 @@ def rising_resistance(results: Results) -> list[Figure]:
         return exact_ratio(case(results, 5, resistance=times * impact.target_resistance))
 
     return [
-        figure("exact X/R, beta = 5", "1", ratio, 1),
-        figure("exact X/R at twice that resistance", "1", ratio, 2),
+        quantified("exact X/R, beta = 5", "1", ratio, 1),
+        quantified("exact X/R at twice that resistance", "1", ratio, 2),
     ]
 
 

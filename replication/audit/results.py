@@ -8,7 +8,7 @@ from reference.printed import decimal_text
 from reference.units import to_si
 from replication.audit.assessment import Reading, Verdict
 from replication.audit.explain import Explainer
-from replication.audit.slips import tried
+from replication.audit.slips import slips_tried
 from replication.audit.verdict import Judge
 from replication.models import depth
 from replication.models.impact import Impact
@@ -24,7 +24,7 @@ class Results:
         self.ledger = ledger
         self.judge = Judge(ledger, every_convention=every_convention)
         self.explainer = Explainer(self.judge)
-        self.slips = cache(partial(tried, self.judge))
+        self.slips = cache(partial(slips_tried, self.judge))
 
     def exact(self, name: str) -> Fraction:
         """Return a claim's printed, an inferred input's assumed, or a source's value, in SI."""

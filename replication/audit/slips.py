@@ -29,7 +29,7 @@ from replication.text import number, powers_of_ten
 
 
 @dataclass(frozen=True)
-class Inputs:
+class Eq16Inputs:
     """The inputs of Eq. 16: L/D, k_1 and k_t [1], densities [kg/m^3], V [m/s] and R_t [Pa]."""
 
     L_D: float
@@ -58,87 +58,87 @@ def slip(part: str, says: str) -> Callable[[Callable[..., Any]], Slip]:
 # The bracket, as printed: L/D rho_p/rho_t + k_1
 
 
-def bracket(x: Inputs) -> float:
+def bracket(x: Eq16Inputs) -> float:
     return x.L_D * x.rho_p / x.rho_t + x.k_1
 
 
 @slip("bracket", "the density ratio upside down")
-def density_ratio_inverted(x: Inputs) -> float:
+def density_ratio_inverted(x: Eq16Inputs) -> float:
     return x.L_D * x.rho_t / x.rho_p + x.k_1
 
 
 @slip("bracket", "the square root of the density ratio, as for long rods")
-def density_ratio_rooted(x: Inputs) -> float:
+def density_ratio_rooted(x: Eq16Inputs) -> float:
     return x.L_D * sqrt(x.rho_p / x.rho_t) + x.k_1
 
 
 @slip("bracket", "no density ratio")
-def density_ratio_left_out(x: Inputs) -> float:
+def density_ratio_left_out(x: Eq16Inputs) -> float:
     return x.L_D + x.k_1
 
 
 @slip("bracket", "the density ratio on k_1 in place of L/D")
-def density_ratio_on_k_1(x: Inputs) -> float:
+def density_ratio_on_k_1(x: Eq16Inputs) -> float:
     return x.L_D + x.k_1 * x.rho_p / x.rho_t
 
 
 @slip("bracket", "the density ratio on both terms")
-def density_ratio_on_both(x: Inputs) -> float:
+def density_ratio_on_both(x: Eq16Inputs) -> float:
     return (x.L_D + x.k_1) * x.rho_p / x.rho_t
 
 
 @slip("bracket", "no L/D")
-def length_left_out(x: Inputs) -> float:
+def length_left_out(x: Eq16Inputs) -> float:
     return x.rho_p / x.rho_t + x.k_1
 
 
 @slip("bracket", "L/R for L/D")
-def length_over_radius(x: Inputs) -> float:
+def length_over_radius(x: Eq16Inputs) -> float:
     return 2 * x.L_D * x.rho_p / x.rho_t + x.k_1
 
 
 @slip("bracket", "half of L for L")
-def half_length(x: Inputs) -> float:
+def half_length(x: Eq16Inputs) -> float:
     return x.L_D / 2 * x.rho_p / x.rho_t + x.k_1
 
 
 @slip("bracket", "D/L for L/D")
-def length_ratio_inverted(x: Inputs) -> float:
+def length_ratio_inverted(x: Eq16Inputs) -> float:
     return x.rho_p / x.rho_t / x.L_D + x.k_1
 
 
 @slip("bracket", "no k_1")
-def k_1_left_out(x: Inputs) -> float:
+def k_1_left_out(x: Eq16Inputs) -> float:
     return x.L_D * x.rho_p / x.rho_t
 
 
 @slip("bracket", "only k_1")
-def inertia_left_out(x: Inputs) -> float:
+def inertia_left_out(x: Eq16Inputs) -> float:
     return x.k_1
 
 
 @slip("bracket", "k_1 subtracted")
-def k_1_subtracted(x: Inputs) -> float:
+def k_1_subtracted(x: Eq16Inputs) -> float:
     return x.L_D * x.rho_p / x.rho_t - x.k_1
 
 
 @slip("bracket", "k_1 as a factor")
-def k_1_multiplied(x: Inputs) -> float:
+def k_1_multiplied(x: Eq16Inputs) -> float:
     return x.L_D * x.rho_p / x.rho_t * x.k_1
 
 
 @slip("bracket", "k_1/2 for k_1")
-def k_1_halved(x: Inputs) -> float:
+def k_1_halved(x: Eq16Inputs) -> float:
     return x.L_D * x.rho_p / x.rho_t + x.k_1 / 2
 
 
 @slip("bracket", "2 k_1 for k_1, as D is 2R")
-def k_1_doubled(x: Inputs) -> float:
+def k_1_doubled(x: Eq16Inputs) -> float:
     return x.L_D * x.rho_p / x.rho_t + 2 * x.k_1
 
 
 @slip("bracket", "k_t for k_1")
-def k_t_for_k_1(x: Inputs) -> float:
+def k_t_for_k_1(x: Eq16Inputs) -> float:
     return x.L_D * x.rho_p / x.rho_t + x.k_t
 
 
@@ -165,32 +165,32 @@ BRACKETS = (
 # The divisor, as printed: 2 k_t
 
 
-def divisor(x: Inputs) -> float:
+def divisor(x: Eq16Inputs) -> float:
     return 2 * x.k_t
 
 
 @slip("divisor", "/2*k_t typed without brackets, which multiplies by k_t")
-def multiplied_by_k_t(x: Inputs) -> float:
+def multiplied_by_k_t(x: Eq16Inputs) -> float:
     return 2 / x.k_t
 
 
 @slip("divisor", "no k_t in the divisor")
-def k_t_left_out(_: Inputs) -> float:
+def k_t_left_out(_: Eq16Inputs) -> float:
     return 2.0
 
 
 @slip("divisor", "k_1 for k_t in the divisor")
-def k_1_for_k_t(x: Inputs) -> float:
+def k_1_for_k_t(x: Eq16Inputs) -> float:
     return 2 * x.k_1
 
 
 @slip("divisor", "1/2 for k_t in the divisor, as in Eq. 5")
-def half_for_k_t(_: Inputs) -> float:
+def half_for_k_t(_: Eq16Inputs) -> float:
     return 1.0
 
 
 @slip("divisor", "k_t squared in the divisor")
-def k_t_squared(x: Inputs) -> float:
+def k_t_squared(x: Eq16Inputs) -> float:
     return 2 * x.k_t * x.k_t
 
 
@@ -200,72 +200,72 @@ DIVISORS = (multiplied_by_k_t, k_t_left_out, k_1_for_k_t, half_for_k_t, k_t_squa
 # The logarithm, as printed: ln(1 + k_t rho_t V^2/R_t)
 
 
-def logarithm(x: Inputs) -> float:
+def logarithm(x: Eq16Inputs) -> float:
     return log(1 + x.k_t * x.rho_t * x.V * x.V / x.R_t)
 
 
 @slip("logarithm", "the logarithm to base 10: LOG for LN")
-def base_10(x: Inputs) -> float:
+def base_10(x: Eq16Inputs) -> float:
     return log(1 + x.k_t * x.rho_t * x.V * x.V / x.R_t) / log(10)
 
 
 @slip("logarithm", "no logarithm: its argument less 1")
-def no_logarithm(x: Inputs) -> float:
+def no_logarithm(x: Eq16Inputs) -> float:
     return x.k_t * x.rho_t * x.V * x.V / x.R_t
 
 
 @slip("logarithm", "no 1 in the logarithm")
-def one_left_out(x: Inputs) -> float:
+def one_left_out(x: Eq16Inputs) -> float:
     return log(x.k_t * x.rho_t * x.V * x.V / x.R_t)
 
 
 @slip("logarithm", "1 - for 1 +, with the sign of the whole turned")
-def one_minus(x: Inputs) -> float:
+def one_minus(x: Eq16Inputs) -> float:
     return -log(1 - x.k_t * x.rho_t * x.V * x.V / x.R_t)
 
 
 @slip("logarithm", "R_t divides 1, too: (1 + k_t rho_t V^2)/R_t")
-def bracket_too_early(x: Inputs) -> float:
+def bracket_too_early(x: Eq16Inputs) -> float:
     return log((1 + x.k_t * x.rho_t * x.V * x.V) / x.R_t)
 
 
 @slip("logarithm", "the drag upside down: R_t/(k_t rho_t V^2)")
-def drag_inverted(x: Inputs) -> float:
+def drag_inverted(x: Eq16Inputs) -> float:
     return log(1 + x.R_t / (x.k_t * x.rho_t * x.V * x.V))
 
 
 @slip("logarithm", "no k_t in the logarithm")
-def k_t_left_out_of_drag(x: Inputs) -> float:
+def k_t_left_out_of_drag(x: Eq16Inputs) -> float:
     return log(1 + x.rho_t * x.V * x.V / x.R_t)
 
 
 @slip("logarithm", "1/2 for k_t in the logarithm, as in Eq. 5")
-def half_for_k_t_in_drag(x: Inputs) -> float:
+def half_for_k_t_in_drag(x: Eq16Inputs) -> float:
     return log(1 + x.rho_t * x.V * x.V / (2 * x.R_t))
 
 
 @slip("logarithm", "k_1 for k_t in the logarithm")
-def k_1_in_drag(x: Inputs) -> float:
+def k_1_in_drag(x: Eq16Inputs) -> float:
     return log(1 + x.k_1 * x.rho_t * x.V * x.V / x.R_t)
 
 
 @slip("logarithm", "k_t/2 in the logarithm: the 1/2 of Eq. 5 and k_t")
-def half_k_t_in_drag(x: Inputs) -> float:
+def half_k_t_in_drag(x: Eq16Inputs) -> float:
     return log(1 + x.k_t * x.rho_t * x.V * x.V / (2 * x.R_t))
 
 
 @slip("logarithm", "2 k_t in the logarithm, as in the divisor")
-def twice_k_t_in_drag(x: Inputs) -> float:
+def twice_k_t_in_drag(x: Eq16Inputs) -> float:
     return log(1 + 2 * x.k_t * x.rho_t * x.V * x.V / x.R_t)
 
 
 @slip("logarithm", "the particle's density in the logarithm")
-def rho_p_in_drag(x: Inputs) -> float:
+def rho_p_in_drag(x: Eq16Inputs) -> float:
     return log(1 + x.k_t * x.rho_p * x.V * x.V / x.R_t)
 
 
 @slip("logarithm", "V not squared")
-def velocity_not_squared(x: Inputs) -> float:
+def velocity_not_squared(x: Eq16Inputs) -> float:
     return log(1 + x.k_t * x.rho_t * x.V / x.R_t)
 
 
@@ -289,22 +289,22 @@ LOGARITHMS = (
 # What joins them, as printed: (bracket/divisor) logarithm; and X/R for X/D
 
 
-def joined(_: Inputs, first: float, below: float, log_: float) -> float:
+def joined(_: Eq16Inputs, first: float, below: float, log_: float) -> float:
     return first / below * log_
 
 
 @slip("joined", "no brackets around the sum: only k_1 is divided, and multiplied by the logarithm")
-def sum_without_brackets(x: Inputs, first: float, below: float, log_: float) -> float:
+def sum_without_brackets(x: Eq16Inputs, first: float, below: float, log_: float) -> float:
     return first - x.k_1 + x.k_1 / below * log_
 
 
 @slip("joined", "the logarithm in the divisor")
-def logarithm_below(_: Inputs, first: float, below: float, log_: float) -> float:
+def logarithm_below(_: Eq16Inputs, first: float, below: float, log_: float) -> float:
     return first / (below * log_)
 
 
 @slip("joined", "no divisor")
-def divisor_left_out(_: Inputs, first: float, __: float, log_: float) -> float:
+def divisor_left_out(_: Eq16Inputs, first: float, __: float, log_: float) -> float:
     return first * log_
 
 
@@ -333,17 +333,17 @@ SCALES = (doubled, halved, doubled_twice)
 
 
 @slip("parameters", "k_1 and k_t exchanged")
-def parameters_exchanged(x: Inputs) -> Inputs:
+def parameters_exchanged(x: Eq16Inputs) -> Eq16Inputs:
     return replace(x, k_1=x.k_t, k_t=x.k_1)
 
 
 @slip("densities", "the particle's density for both")
-def densities_of_particle(x: Inputs) -> Inputs:
+def densities_of_particle(x: Eq16Inputs) -> Eq16Inputs:
     return replace(x, rho_t=x.rho_p)
 
 
 @slip("densities", "the densities exchanged")
-def densities_exchanged(x: Inputs) -> Inputs:
+def densities_exchanged(x: Eq16Inputs) -> Eq16Inputs:
     return replace(x, rho_t=x.rho_p, rho_p=x.rho_t)
 
 
@@ -363,7 +363,7 @@ LENGTH_RATIOS = ("circumscribed-length-ratio",)
 """The claims that print another velocity, resistance or L/D, which may be put in by mistake."""
 
 
-def numbers_named(ledger: Ledger, x: Inputs) -> Iterator[Slip]:
+def numbers_named(ledger: Ledger, x: Eq16Inputs) -> Iterator[Slip]:
     """Yield a slip for each other velocity, resistance and L/D that the report names."""
     named = [("velocity", "V", claim, ledger.value(claim)) for claim in VELOCITIES]
     named += [("resistance", "R_t", claim, ledger.value(claim)) for claim in RESISTANCES]
@@ -378,7 +378,7 @@ def numbers_named(ledger: Ledger, x: Inputs) -> Iterator[Slip]:
             yield Slip(part, says, partial(_put, symbol, float(value)))
 
 
-def _put(symbol: str, value: float, x: Inputs) -> Inputs:
+def _put(symbol: str, value: float, x: Eq16Inputs) -> Eq16Inputs:
     return replace(x, **{symbol: value})
 
 
@@ -388,7 +388,7 @@ Member = tuple[Slip, ...]
 """A member of the family: Eq. 16 with slips in different parts of it."""
 
 
-def family(ledger: Ledger, x: Inputs) -> list[Member]:
+def family(ledger: Ledger, x: Eq16Inputs) -> list[Member]:
     """Return Eq. 16 as printed, with one or two slips, and with two slips and X/R twice X/D."""
     slips = [*BRACKETS, *DIVISORS, *LOGARITHMS, *JOINS, *SCALES, *EXCHANGES]
     slips += numbers_named(ledger, x)
@@ -399,7 +399,7 @@ def family(ledger: Ledger, x: Inputs) -> list[Member]:
     return [(), *((slip,) for slip in slips), *pairs, *doubled_too]
 
 
-def ratio(x: Inputs, member: Member) -> float:
+def depth_with_slips(x: Eq16Inputs, member: Member) -> float:
     """Return X/R [1] by Eq. 16 with these slips.
 
     Raises ValueError or ArithmeticError where a logarithm has no value.
@@ -421,7 +421,7 @@ NEAR = 1.5
 """Members within this factor of a number tell how many would fit it by accident."""
 
 
-def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSlip]]:
+def slips_tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSlip]]:
     """Return which slips give a claim that Eq. 16 should give, and how many would by accident.
 
     A slip fits if it gives the number, with all other inputs as printed, for some target density
@@ -458,10 +458,10 @@ def tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSlip]]:
     return SlipsTried(forms=len(forms), members=len(seen), near=near, expected=expected), fitting
 
 
-def _inputs(judge: Judge, claim: Claim) -> Inputs:
+def _inputs(judge: Judge, claim: Claim) -> Eq16Inputs:
     """Return the inputs of a Frank-Zook claim as printed, in doubles."""
     values = {name: float(judge.value(*entries)) for name, entries in claim.inputs.items()}
-    return Inputs(
+    return Eq16Inputs(
         L_D=values["length_ratio"],
         rho_p=values["particle_density"],
         rho_t=values["target_density"],
@@ -478,10 +478,10 @@ def _admitted(judge: Judge) -> list[float]:
     return [float(end) for end in (*inference.with_mass.ends, *inference.inner.ends)]
 
 
-def _value(x: Inputs, member: Member) -> float | None:
+def _value(x: Eq16Inputs, member: Member) -> float | None:
     """Return X/R of a member; None if it has no value, or none above zero."""
     try:
-        value = ratio(x, member)
+        value = depth_with_slips(x, member)
     except (ArithmeticError, ValueError):
         return None
     return value if 0 < value < inf else None

@@ -180,10 +180,10 @@ def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]
     values = [source.interval for source in judge.ledger.sources_of(claim.id)]
     if computed is not None:
         values = [Interval.point(Fraction(computed) * claim.si)]
-    return assumed + _digits(claim, values)
+    return assumed + _digits_taken(claim, values)
 
 
-def _digits(claim: Claim, values: Sequence[Interval]) -> list[str]:
+def _digits_taken(claim: Claim, values: Sequence[Interval]) -> list[str]:
     """Say which digits of an ambiguous number are taken as significant, and whether it matters.
 
     The number is compared with the values (SI) that are computed or that public sources print.

@@ -94,10 +94,10 @@ class Case:
         return float(np.max([float(abs(depth - true) / whole) for depth, true, whole in terms]))
 
 
-def build(name: str) -> Case:
+def build_case(name: str) -> Case:
     """Build one of `CASES`. Raises ValueError for another name.
 
-    >>> case = build("beta-5")
+    >>> case = build_case("beta-5")
     >>> f"{case.times[-1] * 1e9:.3f} ns", f"{case.error('depth', 7.67e-6):.1e}"
     ('26.079 ns', '6.4e-04')
     """
@@ -147,8 +147,10 @@ def tasks(case: Case) -> Iterator[Task]:
     steps = [(step, f"{step * 1e9:.5g} ns") for step in (case.impact.step * f for f in STEPS)]
     for scheme, (step, setting) in product(Scheme, steps):
         name, impact = f"sheet, {scheme}", replace(case.impact, step=step)
-        yield Task(name, setting, "depth", partial(_rows, impact, scheme, None), stop)
-        yield Task(name, setting, "history", partial(_rows, impact, scheme, case.times), stop)
+        yield Task(name, setting, "depth", partial(_sheet_depths, impact, scheme, None), stop)
+        yield Task(
+            name, setting, "history", partial(_sheet_depths, impact, scheme, case.times), stop
+        )
         sheets = partial(arrays.run_many, step=step, stop_velocity=stop, scheme=scheme)
         yield _many(name, setting, case, sheets, 1001, stop)
     yield Task("closed form", "no steps", "depth", partial(arrays.final_depth, *given))
@@ -179,7 +181,7 @@ def _many(name: str, setting: str, case: Case, work: Function, count: int, stop:
     return Task(f"{name}, many", setting, "depth", work, stop, count, compiled=True)
 
 
-def _rows(impact: Impact, scheme: Scheme, times: Any) -> Any:
+def _sheet_depths(impact: Impact, scheme: Scheme, times: Any) -> Any:
     """Return the sheet's final depth, or its depths interpolated linearly at the times.
 
     The scheme's x belongs to the middle of its row, half a step before the time of the row.
@@ -212,7 +214,7 @@ def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[
 # Measuring
 
 Point = dict[str, Any]
-"""The measurements of a task by `trial`, as in the JSON."""
+"""The measurements of a task by `measured_points`, as in the JSON."""
 
 DIGITS = range(1, 16)
 
@@ -229,14 +231,14 @@ def bench(
     """
     if not limit > 0:
         raise ValueError(f"a limit of {limit:g} s: it must be greater than zero")
-    cases = [build(name) for name in names]
+    cases = [build_case(name) for name in names]
     measured = []
     with tempfile.TemporaryDirectory() as empty:
         numba.config.CACHE_DIR = empty  # so that everything is compiled again
         arrays.compiled.cache_clear()
         numba.vectorize(["f8(f8)"])(error_for)  # starts the compiler, which is no method's cost
         for case in cases:
-            trials = [trial(case, task, repeat, limit) for task in tasks(case)]
+            trials = [measured_points(case, task, repeat, limit) for task in tasks(case)]
             with tqdm(trials * (1 + repeat), case.name, leave=False, disable=quiet) as turns:
                 points = [next(turn, {}) for turn in turns]
             del points[len(trials) :]  # later turns have filled in those of the first
@@ -253,7 +255,7 @@ def bench(
     return {"machine": _machine(), "repeat": repeat, "limit": limit, "cases": measured}
 
 
-def trial(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
+def measured_points(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
     """Yield a task's point once a turn: the first turn warms up, each other turn times a batch.
 
     The point has the relative error; `best` and `median` of `repeats` batches of `calls` calls, in

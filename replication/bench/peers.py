@@ -23,7 +23,7 @@ def _acceleration(y: Any, u: Any, b: Any, c: Any) -> Any:
 
 
 @njit
-def _slope(_: Any, state: Any, b: Any, c: Any) -> Any:
+def _motion_slope(_: Any, state: Any, b: Any, c: Any) -> Any:
     return np.array((state[1], _acceleration(state[0], state[1], b, c)))
 
 
@@ -53,13 +53,13 @@ def _odeint(tolerance: float, b: float, c: float, times: Any) -> Any:
     from scipy.integrate import odeint
 
     options: Any = {"tfirst": True, "rtol": tolerance, "atol": tolerance, "mxstep": 100_000}
-    return odeint(_slope, (0.0, 1.0), times, args=(b, c), **options)[:, 0]
+    return odeint(_motion_slope, (0.0, 1.0), times, args=(b, c), **options)[:, 0]
 
 
 def _dop853(tolerance: float, b: float, c: float, times: Any) -> Any:
     from scipy.integrate import ode
 
-    solver = ode(_slope).set_f_params(b, c)
+    solver = ode(_motion_slope).set_f_params(b, c)
     solver.set_integrator("dop853", rtol=tolerance, atol=tolerance, nsteps=100_000)
     solver.set_initial_value((0.0, 1.0), 0.0)
     return [0.0, *(solver.integrate(time)[0] for time in times[1:].tolist())]

@@ -40,7 +40,7 @@ def texts(record: dict[str, Any], width: int = 10_000) -> dict[str, str]:
         lines += [
             "",
             f"{case['name']}: {case['depth'] * 1e6:.7g} um",
-            *_table(case["points"], width),
+            *_point_table(case["points"], width),
         ]
     lines += [
         "",
@@ -53,7 +53,7 @@ def texts(record: dict[str, Any], width: int = 10_000) -> dict[str, str]:
     return {"bench.txt": "\n".join(lines), "bench.json": json_text(record), "bench.csv": csv}
 
 
-def _table(points: Sequence[Point], width: int) -> Iterator[str]:
+def _point_table(points: Sequence[Point], width: int) -> Iterator[str]:
     heads = ("error", "best", "median", "")
     rows: list[tuple[str, ...]] = [
         ("method", "setting", "compile", "final depth", "", "", "", "history", "", "", ""),
@@ -111,7 +111,7 @@ def _span(values: Sequence[float]) -> str:
     return least if least == most else f"{least} to {most}"
 
 
-def figure(case: dict[str, Any]) -> bytes:
+def accuracy_figure(case: dict[str, Any]) -> bytes:
     """Draw error against time for one case, as SVG on a white background.
 
     Each line is labelled by its method: this project's in black with filled marks, others in gray
@@ -137,7 +137,7 @@ def figure(case: dict[str, Any]) -> bytes:
             ends: dict[str, tuple[float, float]] = {}
             for method in dict.fromkeys(point["method"] for point in points):
                 times, errors = _line(point for point in points if point["method"] == method)
-                panel.plot(times, errors, **_look(method))
+                panel.plot(times, errors, **_line_look(method))
                 reached = ~np.isnan(times)
                 if reached.any():
                     ends[method] = times[reached][-1], errors[reached][-1]
@@ -148,7 +148,7 @@ def figure(case: dict[str, Any]) -> bytes:
         return content(drawn)
 
 
-def _look(method: str) -> dict[str, Any]:
+def _line_look(method: str) -> dict[str, Any]:
     """Return how the line of a method is drawn."""
     is_peer = method in SOLVERS or "Numba" in method or "bare" in method
     look: dict[str, Any] = {"color": "#6e7781" if is_peer else INK}
@@ -171,7 +171,7 @@ def _label(panel: "Axes", ends: Mapping[str, tuple[float, float]]) -> None:
     for method, height in zip(by_error, spread(heights, LABEL_GAP), strict=True):
         panel.annotate(
             method, ends[method], xytext=(1.04, height), textcoords="axes fraction", va="center",
-            fontsize=8, color=_look(method)["color"],
+            fontsize=8, color=_line_look(method)["color"],
             arrowprops={
                 "arrowstyle": "-", "color": SHADE, "linewidth": 0.5, "relpos": (0, 0.5),
                 "shrinkB": 3,
@@ -200,7 +200,7 @@ def _line(points: Iterable[Point]) -> Any:
     return np.array([(p["best"], met(p)) for p in points], float).reshape(-1, 2).T
 
 
-def write(folder: Path, record: dict[str, Any]) -> None:
+def write_bench(folder: Path, record: dict[str, Any]) -> None:
     """Write text, JSON, CSV and all figures into a folder, or none of them. Raises OSError."""
-    figures = {f"bench-{case['name']}.svg": figure(case) for case in record["cases"]}
+    figures = {f"bench-{case['name']}.svg": accuracy_figure(case) for case in record["cases"]}
     write_folder(folder, {name: text.encode() for name, text in texts(record).items()} | figures)

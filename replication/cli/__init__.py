@@ -30,7 +30,7 @@ from replication.cli import (
     sweep,
     workbook,
 )
-from replication.cli.parser import Command, parse
+from replication.cli.parser import Command, parse_command_line
 from replication.reading import one_line
 
 COMMANDS: Mapping[str, Command] = {
@@ -66,7 +66,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     program = "coldspray"
     try:
-        options = parse(COMMANDS, sys.argv[1:] if arguments is None else arguments)
+        options = parse_command_line(COMMANDS, sys.argv[1:] if arguments is None else arguments)
         program += f" {options.command}"
         if arguments is None:
             _end_as_interrupted()

@@ -38,18 +38,18 @@ def run(options: argparse.Namespace) -> int:
     from replication import report
     from replication.audit.audit import audit
     from replication.error import hard_cases
-    from replication.workbook import build
+    from replication.workbook import build_workbook
     from spreadsheets import emit
     from spreadsheets.safely import check_folder, write_folder
 
     check_folder(options.out, report.FILES)
     workbook = options.out / "workbook.xlsx"
     if workbook.exists():
-        emit.check(workbook, force=options.force)
+        emit.check_writable(workbook, force=options.force)
     record = audit(progress=partial(progress, options, unit=" claims", leave=False))
     beside = {
-        "workbook.xlsx": build(record=record).to_bytes(),
-        "hard-cases.txt": hard_cases.text(hard_cases.record(1000, seed=1)).encode(),
+        "workbook.xlsx": build_workbook(record=record).to_bytes(),
+        "hard-cases.txt": hard_cases.hard_cases_text(hard_cases.record(1000, seed=1)).encode(),
     }
     written = report.contents(record, beside)
     write_folder(options.out, written)

@@ -35,7 +35,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Measure, write the files if asked to, and print the table."""
     from replication.bench.measure import CASES, bench
-    from replication.bench.show import texts, write
+    from replication.bench.show import texts, write_bench
     from spreadsheets.safely import check_folder
 
     names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
@@ -48,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
     # None shows the progress bar on a terminal only.
     record = bench(names, options.repeat or repeat, limit, quiet=options.quiet or None)
     if options.out is not None:
-        write(options.out, record)
+        write_bench(options.out, record)
     form = "json" if options.json else "csv" if options.csv else "txt"
     sys.stdout.write(texts(record, width(piped=10_000))[f"bench.{form}"])
     return 0

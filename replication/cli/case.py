@@ -189,10 +189,10 @@ def shown_in(name: str) -> str:
     return {"radius": "um", "resistance": "GPa", "flow_stress": "MPa"}.get(name, INPUTS[name])
 
 
-def shown(name: str, value: float, digits: int = 8) -> str:
+def input_in_words(name: str, value: float, digits: int = 8) -> str:
     """Return a value (SI) of an input to some digits as it is read, and with all digits.
 
-    >>> shown("resistance", 3.5e9), shown("beta", 5.0)
+    >>> input_in_words("resistance", 3.5e9), input_in_words("beta", 5.0)
     ('3.5 GPa (3500000000.0 Pa)', '5 (5.0)')
     """
     unit = shown_in(name)

@@ -9,7 +9,7 @@ from reference.scheme import Scheme
 from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme, times, whole
 from replication.cli.output import filled, put, width
-from replication.cli.picture import add_plot, checked, draw
+from replication.cli.picture import add_plot, checked, write_picture
 from replication.models.impact import Impact
 from replication.text import columns, number
 
@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.error.ladder import GOVERNED_BY, converge, ladder, step_for_digits
 
     (case, warnings), scheme = case_of(options), options.scheme
-    points = checked(options, _own_points, options.case_file)
+    points = checked(options, _points_of_error, options.case_file)
     if options.steps is None:
         steps = ladder(case.step, options.levels)
     else:
@@ -61,21 +61,25 @@ def run(options: argparse.Namespace) -> int:
     record = converge(case, steps, scheme)
     record["digits"] = options.digits and step_for_digits(case, options.digits, scheme)
     record["warnings"] = warnings
-    draw(options, lambda: _figure(case, record, points))
+    write_picture(options, lambda: _convergence_figure(case, record, points))
     rows = [level | level["budget"] for level in record["levels"]]
     for row in rows:
         del row["budget"], row["warnings"], row["warned_of"]
     notes = _notes(record["levels"])
-    return put(options, record, lambda: _text(case, record, GOVERNED_BY), rows, warnings, notes)
+    return put(
+        options, record, lambda: _convergence_text(case, record, GOVERNED_BY), rows, warnings, notes
+    )
 
 
-def _own_points(file: Path) -> "Points":
+def _points_of_error(file: Path) -> "Points":
     from replication.plots import DEPTH, ERROR, STEP, read_points
 
     return read_points(file, STEP, (ERROR, DEPTH))
 
 
-def _figure(case: Impact, record: Mapping[str, Any], points: "Points | None") -> "Figure":
+def _convergence_figure(
+    case: Impact, record: Mapping[str, Any], points: "Points | None"
+) -> "Figure":
     from replication.plots import plot_converge
 
     title = f"{in_words(case, stop=True)}, {record['scheme']} scheme"
@@ -109,7 +113,9 @@ _WHY = {
 }
 
 
-def _text(case: Impact, record: Mapping[str, Any], governed_by: Mapping[str, str]) -> str:
+def _convergence_text(
+    case: Impact, record: Mapping[str, Any], governed_by: Mapping[str, str]
+) -> str:
     """Return the error and its parts as tables, the limit, and what they mean."""
     levels, columns_of = record["levels"], width()
     regimes = {level["regime"] for level in levels}
@@ -118,7 +124,7 @@ def _text(case: Impact, record: Mapping[str, Any], governed_by: Mapping[str, str
         "",
         columns(_errors(levels), columns_of),
         "",
-        columns(_parts(levels), columns_of),
+        columns(_error_parts(levels), columns_of),
         "",
         f"exact, at rest            {_um(record['exact'], 10)} um",
         f"exact, at stop velocity   {_um(record['exact_at_stop'], 10)} um",
@@ -165,7 +171,7 @@ def _errors(levels: Sequence[Level]) -> list[tuple[str, ...]]:
     ]
 
 
-def _parts(levels: Sequence[Level]) -> list[tuple[str, ...]]:
+def _error_parts(levels: Sequence[Level]) -> list[tuple[str, ...]]:
     """Return the rows of the second table: the four parts of the error at each step."""
     return [
         ("step", "time step", "order", "stop rule", "half step", "rounding"),

@@ -20,7 +20,7 @@ from replication.cli.case import (
 from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import filled, put, width
 from replication.models.estimates import penetration_threshold
-from replication.models.impact import Impact, check, check_each
+from replication.models.impact import Impact, check_each, check_inputs
 from replication.reading import place, read_number
 from replication.text import aligned, columns, number, with_unit
 
@@ -88,7 +88,7 @@ def run(options: argparse.Namespace) -> int:
     results = [_result(name, case, own, typed) for name in names]
     strength, threshold, typed_strength = None, None, options.particle_strength
     if typed_strength is not None:
-        strength = _read("--particle-strength", "particle_strength", typed_strength, "Pa")
+        strength = _read_input("--particle-strength", "particle_strength", typed_strength, "Pa")
         threshold = penetration_threshold(strength, case.target_resistance, case.particle_density)
     if "resistance" in own:
         warnings += doubt("resistance", own["resistance"], OPTIONS["resistance"])
@@ -100,7 +100,7 @@ def run(options: argparse.Namespace) -> int:
     record = record | {"penetration_threshold": threshold, "warnings": warnings}
 
     def text() -> str:
-        depths = _all(case, results) if options.models else _single(case, results[0])
+        depths = _all(case, results) if options.models else _depth_in_words(case, results[0])
         return "\n".join([depths, *_about_threshold(case, strength, threshold)])
 
     return put(options, record, text, warnings=warnings)
@@ -132,15 +132,16 @@ def _own_inputs(options: argparse.Namespace, names: Sequence[str]) -> dict[str, 
             "frank-zook or --models"
         )
     return {
-        name: _read(OPTIONS[name], name, text, OWN_INPUTS[name]) for name, text in texts.items()
+        name: _read_input(OPTIONS[name], name, text, OWN_INPUTS[name])
+        for name, text in texts.items()
     }
 
 
-def _read(flag: str, name: str, text: str, unit: str) -> float:
+def _read_input(flag: str, name: str, text: str, unit: str) -> float:
     """Read a number for an input, which no case has, that the models can compute with."""
     with place(flag):
         value = read_number(text, unit)
-        check({name: value})
+        check_inputs({name: value})
         check_each(**{name: value})
         return value
 
@@ -166,7 +167,7 @@ def _result(
     }
 
 
-def _single(case: Impact, result: Mapping[str, Any]) -> str:
+def _depth_in_words(case: Impact, result: Mapping[str, Any]) -> str:
     """Return the depth by one model; the report's is said without its name, which all else is."""
     name, depth, ratio = result["model"], result["depth"], result["normalized_depth"]
     if name == "rigid":

@@ -4,7 +4,7 @@ import argparse
 from functools import partial
 
 from replication.cli.differences import add_files, check_files, put_differences
-from replication.cli.options import path, share, whole
+from replication.cli.options import number_up_to_1, path, whole
 
 HELP = "compare two workbooks: layout, formulas and values"
 EXAMPLE = "coldspray diff mine.xlsx yours.xlsx --values-only --digits 12"
@@ -19,7 +19,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         help="equal if at most N doubles (ulp) apart (default: %(default)s)",
     )  # fmt: skip
     parser.add_argument(
-        "--relative", metavar="X", type=share, default=0.0,
+        "--relative", metavar="X", type=number_up_to_1, default=0.0,
         help="equal if they differ by at most X times their size (default: %(default)s)",
     )  # fmt: skip
     parser.add_argument(

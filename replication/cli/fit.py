@@ -11,13 +11,13 @@ from replication.cli.case import (
     case_of,
     doubt,
     given_inputs,
+    input_in_words,
     inputs_in_words,
     refuse_sought,
-    shown,
 )
 from replication.cli.options import add_csv_and_json, add_quiet, one_of, path
 from replication.cli.output import filled, put
-from replication.cli.picture import add_plot, checked, draw
+from replication.cli.picture import add_plot, checked, write_picture
 from replication.fit import FITTABLE, Fit, Measurement, check_factor, fit, read_measurements
 from replication.models.depth import final_depth
 from replication.reading import place
@@ -65,8 +65,8 @@ def run(options: argparse.Namespace) -> int:
     inputs = _common_inputs(measurements)
     if other := OTHER_FACTOR.get(quantity):
         inputs[other] = fitted.resistance / fitted.value
-    rows = _rows(fitted, measurements)
-    draw(options, lambda: _figure(options.file, fitted, measurements, inputs))
+    rows = _fitted_rows(fitted, measurements)
+    write_picture(options, lambda: _fit_figure(options.file, fitted, measurements, inputs))
     record = {
         "inputs": inputs,
         "quantity": quantity,
@@ -79,10 +79,10 @@ def run(options: argparse.Namespace) -> int:
         "measurements": rows,
         "warnings": warnings,
     }
-    return put(options, record, lambda: _text(fitted, inputs, rows), rows, warnings)
+    return put(options, record, lambda: _fit_text(fitted, inputs, rows), rows, warnings)
 
 
-def _figure(
+def _fit_figure(
     file: Path, fitted: Fit, measurements: Sequence[Measurement], inputs: Mapping[str, float]
 ) -> "Figure":
     from replication.plots import plot_fit
@@ -112,7 +112,7 @@ def _doubts(fitted: Fit, measurements: Sequence[Measurement], file: Path) -> lis
     return warnings + doubt(fitted.quantity, fitted.value, f"the fitted {quantity}", typed=False)
 
 
-def _rows(fitted: Fit, measurements: Sequence[Measurement]) -> list[dict[str, float | None]]:
+def _fitted_rows(fitted: Fit, measurements: Sequence[Measurement]) -> list[dict[str, float | None]]:
     """Return the measurements in SI units, each with its line, its fitted depth and residual."""
     return [
         {
@@ -130,7 +130,7 @@ def _rows(fitted: Fit, measurements: Sequence[Measurement]) -> list[dict[str, fl
     ]
 
 
-def _text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[str, Any]]) -> str:
+def _fit_text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[str, Any]]) -> str:
     """Return the inputs, a table of the measurements, and the fitted value below it."""
     weighted = fitted.chi_square is not None
     heads = ("line", "velocity [m/s]", "x [um]", "fitted [um]", "residual [um]")
@@ -141,12 +141,12 @@ def _text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[str, 
         for row in rows
     ]
     name = fitted.quantity.replace("_", " ")
-    results = [(name, shown(fitted.quantity, fitted.value))]
+    results = [(name, input_in_words(fitted.quantity, fitted.value))]
     if fitted.standard_error is None:
         results.append(("standard error", "unknown: one measurement, without an uncertainty"))
     else:
         percent = number(100 * fitted.standard_error / fitted.value, 3)
-        error = shown(fitted.quantity, fitted.standard_error, 3)
+        error = input_in_words(fitted.quantity, fitted.standard_error, 3)
         by = "uncertainties" if weighted else "scatter"
         results.append(("standard error", f"{error}, {percent} %, by the {by}"))
     if fitted.chi_square is not None:

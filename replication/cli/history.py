@@ -9,7 +9,7 @@ from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, times, whole
 from replication.cli.output import filled, put
-from replication.cli.picture import add_plot, checked, draw
+from replication.cli.picture import add_plot, checked, write_picture
 from replication.models.impact import Impact
 from replication.text import number, numbers
 
@@ -57,7 +57,7 @@ def run(options: argparse.Namespace) -> int:
     depth, velocity = [0.0] * len(asked), [0.0] * len(asked)
     history(asked, **case.motion, depth=depth, speed=velocity)
     lists = {"time": asked, "depth": depth, "velocity": velocity}
-    draw(options, lambda: _figure(case, lists, points))
+    write_picture(options, lambda: _history_figure(case, lists, points))
     table = list(zip(*lists.values(), strict=True))
 
     def text() -> str:
@@ -78,7 +78,7 @@ def _own_points(file: Path) -> "Points":
     return read_points(file, TIME, (DEPTH, SPEED))
 
 
-def _figure(
+def _history_figure(
     case: Impact, lists: Mapping[str, Sequence[float]], points: "Points | None"
 ) -> "Figure":
     from replication.plots import plot_history

@@ -61,7 +61,7 @@ def path(text: str) -> Path:
     return Path(text)
 
 
-def share(text: str) -> float:
+def number_up_to_1(text: str) -> float:
     """Read a number from 0 to 1."""
     try:
         number = float(text)

@@ -77,7 +77,9 @@ _DASHES = re.compile(r"(-\w|--[\w-]+=)--")
 """An option with the value `--`, which argparse drops (CPython issue 59317)."""
 
 
-def parse(commands: Mapping[str, Command], arguments: Sequence[str]) -> argparse.Namespace:
+def parse_command_line(
+    commands: Mapping[str, Command], arguments: Sequence[str]
+) -> argparse.Namespace:
     """Read the arguments; the result names the command and has the value of each of its options.
 
     Prints help or the version, or the error in one line, and then raises SystemExit. Without

@@ -46,7 +46,7 @@ def checked(
     return None if data is None else read(data)
 
 
-def draw(options: argparse.Namespace, figure: Callable[[], "Figure"]) -> None:
+def write_picture(options: argparse.Namespace, figure: Callable[[], "Figure"]) -> None:
     """Write the figure, if it is asked for, whole or not at all."""
     with drafted(options, figure):
         pass

@@ -33,10 +33,10 @@ def run(options: argparse.Namespace) -> int:
     With them stands how many harmless rewritings change a verdict.
     """
     from reference.ledger import load
-    from replication.power import power
+    from replication.power import measure_power
 
     shown = partial(progress, options, unit=" texts", leave=False)
-    result = power(load(), options.sample, options.seed, shown)
+    result = measure_power(load(), options.sample, options.seed, shown)
     lines = [
         f"{result.planted} misprints, planted one at a time; {result.invisible} cannot be noticed,",
         "as all numbers that the audit relates still agree. Of the others, and of",

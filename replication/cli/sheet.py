@@ -8,7 +8,7 @@ from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme
 from replication.cli.output import filled, put
-from replication.cli.picture import add_plot, checked, draw
+from replication.cli.picture import add_plot, checked, write_picture
 from replication.models.sheet import Sheet
 from replication.text import number, numbers
 
@@ -37,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
     case, warnings = case_of(options)
     points = checked(options, _own_points, options.case_file)
     result = sheet.run(case, options.scheme)
-    draw(options, lambda: _figure(result, points))
+    write_picture(options, lambda: _sheet_figure(result, points))
     rows = [row._asdict() for row in result.rows] if options.json or options.csv else []
     doubts = error.warnings(result)
     notes = [words for kind, words in doubts.items() if kind in error.NOTES]
@@ -52,10 +52,10 @@ def run(options: argparse.Namespace) -> int:
         "warnings": warnings,
         "notes": notes,
     }
-    return put(options, record, lambda: _text(result), rows, warnings, notes)
+    return put(options, record, lambda: _sheet_text(result), rows, warnings, notes)
 
 
-def _text(sheet: Sheet) -> str:
+def _sheet_text(sheet: Sheet) -> str:
     heads = "row", "time [ns]", "initial [m/s]", "x [um]", "deceleration [m/s2]", "final [m/s]"
     rows = enumerate(sheet.rows)
     table = ((k, time * 1e9, v, x * 1e6, a, final) for k, (time, v, x, a, final) in rows)
@@ -74,7 +74,7 @@ def _own_points(file: Path) -> "Points":
     return read_points(file, TIME, (DEPTH, SPEED))
 
 
-def _figure(sheet: Sheet, points: "Points | None") -> "Figure":
+def _sheet_figure(sheet: Sheet, points: "Points | None") -> "Figure":
     from replication.plots import plot_sheet
 
     return plot_sheet(sheet, in_words(sheet.impact, step=True, stop=True), points)

@@ -11,9 +11,9 @@ from replication.cli.case import (
     case_of,
     doubt,
     given_inputs,
+    input_in_words,
     inputs_in_words,
     refuse_sought,
-    shown,
     shown_in,
 )
 from replication.cli.options import add_json, add_quiet, one_of
@@ -69,7 +69,7 @@ def run(options: argparse.Namespace) -> int:
         meant = _meant(text, depth / case.radius)
         raise ValueError(f"{option(name)}: the depth is {radii}: {error}{meant}") from error
     if answer.value is not None:
-        named = f"the {_words(quantity)} for this depth"
+        named = f"the {_without_underscores(quantity)} for this depth"
         warnings += doubt(quantity, answer.value, named, typed=False)
     record = {
         "inputs": dict(answer.inputs),
@@ -82,7 +82,7 @@ def run(options: argparse.Namespace) -> int:
         "reason": answer.reason or None,
         "warnings": warnings,
     }
-    put(options, record, lambda: _text(answer, texts), warnings=warnings)
+    put(options, record, lambda: _solution_text(answer, texts), warnings=warnings)
     return 0 if answer.value is not None or answer.interval is not None else 1
 
 
@@ -104,33 +104,33 @@ def _meant(text: str, normalized_depth: float) -> str:
     return f'; did you mean "{text.strip()} um"?' if in_um else ""
 
 
-def _text(answer: Solution, texts: Mapping[str, str]) -> str:
+def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:
     """Return the inputs, the depth, and the answer with its range and condition."""
     rows = [("depth", f"{number(answer.depth * 1e6, 8)} um ({answer.depth!r} m)")]
     if answer.normalized_depth is not None:
         rows.append(("normalized depth", number(answer.normalized_depth, 8)))
-    name = _words(answer.quantity)
+    name = _without_underscores(answer.quantity)
     if answer.value is None:
         rows.append((name, f"none: the {answer.reason}"))
     else:
-        rows.append((name, shown(answer.quantity, answer.value)))
+        rows.append((name, input_in_words(answer.quantity, answer.value)))
     if answer.interval is not None:
-        rows.append(("range", _range(answer, texts)))
+        rows.append(("range", _proven_range(answer, texts)))
     if answer.condition is not None:
         means = "relative change of it for one of the depth"
         rows.append(("condition", f"{number(answer.condition, 3)}: {means}"))
     return f"{filled(inputs_in_words(answer.inputs))}\n\n{columns(rows, min(width(), 100))}"
 
 
-def _range(answer: Solution, texts: Mapping[str, str]) -> str:
+def _proven_range(answer: Solution, texts: Mapping[str, str]) -> str:
     """Return the interval, rounded outward, and for which texts it is proven."""
     assert answer.interval is not None
     unit = shown_in(answer.quantity)
     ends = [Fraction(end) / to_si(unit) for end in answer.interval]
-    alike = ", ".join(f"{_words(name)} {text}" for name, text in texts.items())
+    alike = ", ".join(f"{_without_underscores(name)} {text}" for name, text in texts.items())
     proven = f"{with_unit(between(ends, 5), unit)}, proven for all that prints as {alike}"
     return proven if answer.interval[0] > 0 else f"{proven}; for some of that there is none"
 
 
-def _words(name: str) -> str:
+def _without_underscores(name: str) -> str:
     return name.replace("_", " ")

@@ -27,4 +27,4 @@ def run(options: argparse.Namespace) -> int:
     from replication.error import hard_cases
 
     record = hard_cases.record(options.random, options.seed)
-    return put(options, record, lambda: hard_cases.text(record, width(piped=10_000)))
+    return put(options, record, lambda: hard_cases.hard_cases_text(record, width(piped=10_000)))

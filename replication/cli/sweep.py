@@ -34,7 +34,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write the file of the plan's cases, whole or not at all."""
-    from replication.sweep import check_output, provenance, read_plan, write
+    from replication.sweep import check_output, read_plan, sweep_provenance, write_sweep
 
     plan = read_plan(options.plan)
     output = options.output or Path(f"{options.plan.stem}.csv")
@@ -43,11 +43,15 @@ def run(options: argparse.Namespace) -> int:
         raise ValueError(f"{output} is the plan itself: give another -o")
     points = _checked(options, plan, output)
     bar = progress(options, total=plan.count, unit=" cases", unit_scale=True)
-    with bar, place(str(options.plan)), drafted(options, lambda: _figure(options, plan, points)):
-        write(plan, output, done=bar.update)
+    with (
+        bar,
+        place(str(options.plan)),
+        drafted(options, lambda: _sweep_figure(options, plan, points)),
+    ):
+        write_sweep(plan, output, done=bar.update)
     record = {"file": str(output), "cases": plan.count, "columns": plan.columns}
     text = f"Written: {one_line(str(output))} ({plan.count} cases)"
-    return put(options, record | provenance(plan), lambda: text, quietly=True)
+    return put(options, record | sweep_provenance(plan), lambda: text, quietly=True)
 
 
 def _checked(options: argparse.Namespace, plan: "Plan", output: Path) -> "Points | None":
@@ -61,7 +65,7 @@ def _checked(options: argparse.Namespace, plan: "Plan", output: Path) -> "Points
     return checked(options, sweep_points(plan.axes, plan.is_drawn), options.plan, output)
 
 
-def _figure(options: argparse.Namespace, plan: "Plan", points: "Points | None") -> "Figure":
+def _sweep_figure(options: argparse.Namespace, plan: "Plan", points: "Points | None") -> "Figure":
     from replication.plots import in_title, plot_sweep
     from replication.sweep import compute
 

@@ -48,11 +48,11 @@ def run(options: argparse.Namespace) -> int:
     from spreadsheets.safely import write_bytes
     from spreadsheets.verify import verify
 
-    emit.check(options.output, force=options.force)
+    emit.check_writable(options.output, force=options.force)
     if options.output.suffix.lower() != ".xlsx":
         raise ValueError(f"{options.output}: a workbook's name ends in .xlsx")
     case, warnings = case_of(options) if is_given(options) else (None, list[str]())
-    book = workbook.build(case, options.scheme, options.rows)
+    book = workbook.build_workbook(case, options.scheme, options.rows)
     write_bytes(options.output, book.to_bytes())
     checks = [
         verify(options.output, book.plan, book.cells, engine, long_doubles=book.rounding)

@@ -167,7 +167,7 @@ def record(count: int, seed: int) -> dict[str, Any]:
     return {"cases": list(map(outcome, HARD_CASES)), "random": worst_of(count, seed)}
 
 
-def text(record: dict[str, Any], width: int = 10_000) -> str:
+def hard_cases_text(record: dict[str, Any], width: int = 10_000) -> str:
     """Return the hard cases as a table, with notes below it and the worst of the random cases.
 
     Where the table is wider than `width`, the sheet and the closed form have one each. The notes

@@ -15,12 +15,14 @@ from replication.models.estimates import (
     frank_zook_depth,
     frank_zook_depth_as_printed,
 )
-from replication.models.impact import check, check_each
+from replication.models.impact import check_each, check_inputs
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DepthModel:
-    """What every model of the final depth takes; raises ValueError as `check` and `check_each` do.
+    """What every model of the final depth takes.
+
+    Raises ValueError as `check_inputs` and `check_each` do.
 
     velocity V [m/s], radius R [m], particle_density rho_p [kg/m^3], resistance R_t [Pa].
     """
@@ -31,7 +33,7 @@ class DepthModel:
     resistance: float
 
     def __post_init__(self) -> None:
-        check(asdict(self))
+        check_inputs(asdict(self))
         check_each(**asdict(self))
 
     @property

@@ -19,8 +19,8 @@ from replication.models.impact import (
     LEAST,
     MAY_BE_ZERO,
     InputError,
-    check,
     check_each,
+    check_inputs,
     check_range,
 )
 
@@ -348,7 +348,7 @@ def _refuse(
     doubtful = _unusual(arrays[1:]) | ~np.isfinite(arrays[0])
     for index, value, case in _elements(arrays, doubtful, numbers):
         try:
-            check(case)
+            check_inputs(case)
             range_check(**case)
             if not math.isfinite(value):
                 raise _without_result(case, value)

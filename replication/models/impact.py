@@ -75,7 +75,7 @@ class Impact:
             except (TypeError, ValueError, OverflowError) as error:
                 raise InputError(name, f"must be one number, in SI units: {error}") from error
             object.__setattr__(self, name, inputs[name])
-        check(inputs)
+        check_inputs(inputs)
         check_range(**self.motion, step=self.step)
 
     def __repr__(self) -> str:
@@ -119,10 +119,10 @@ def particle_mass(radius: float, particle_density: float) -> float:
     return particle_density * 4 / 3 * math.pi * radius * radius * radius
 
 
-def check(inputs: Mapping[str, float]) -> None:
+def check_inputs(inputs: Mapping[str, float]) -> None:
     """Raise InputError for the first input that is not finite, or not positive where it must be.
 
-    >>> check({"velocity": 500.0, "radius": -1.0})
+    >>> check_inputs({"velocity": 500.0, "radius": -1.0})
     Traceback (most recent call last):
     replication.models.impact.InputError: radius is -1.0: it must be a finite number greater than \
 zero

@@ -14,8 +14,8 @@ from replication.audit.record import ClaimRecord, EquationRecord, Finding, Recor
 from replication.report import tables, words
 from replication.report.arrangement import Arrangement
 from replication.report.document import audit_document
-from replication.report.figures import draw
-from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, quoted
+from replication.report.figures import draw_figures
+from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, plain_quotation
 from replication.text import (
     Table,
     columns,
@@ -39,7 +39,7 @@ def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
     hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
     provenance = record.provenance | {"sha256": record.provenance["sha256"] | hashes}
     record = replace(record, provenance=provenance)
-    drawings, document = draw(record), audit_document(record)
+    drawings, document = draw_figures(record), audit_document(record)
     texts = {
         "audit.html": html(record, drawings),
         "audit.md": markdown(record),
@@ -96,10 +96,10 @@ def _from_template(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
     filters = {
         "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
         "number": number,
-        "with_unit": words.with_unit,
+        "printed_with_unit": words.printed_with_unit,
         # A macro returns Markup: str() keeps jinja2 from escaping in it what `prose` escapes.
         "prose": cache(lambda sentence: finished(prose(str(sentence)))),
-        "quoted": quoted,
+        "plain_quotation": plain_quotation,
         "quantity": quantity,
         "slug": lambda text: text.replace(",", "").replace(" ", "-"),
     }
@@ -119,7 +119,7 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
         "record": record,
         "words": words,
         "not_as_printed": tables.not_as_printed(record),
-        "main": tables.main(record),
+        "main": tables.main_results(record),
         "findings": record.findings[:FINDINGS],
         "more": len(record.findings[FINDINGS:]),
     }
@@ -143,7 +143,7 @@ def proof(
     parts = {
         "record": claim,
         "facts": tables.facts(claim, names),
-        "tables": tables.tried(claim),
+        "tables": tables.explanation_tables(claim),
         "findings": findings,
     }
     return _on_terminal("claim.txt.j2", _prose(ledger, names), parts, width, strong)
@@ -175,7 +175,7 @@ def _names(ledger: Ledger) -> dict[str, Named]:
         value = words.measured(float(inferred.nominal), inferred.unit)
         names[f"{INFERRED}{name}"] = Named(inferred.title, value=value)
     for name, entry in ledger.claims.items():
-        names[name] = Named(entry.title, value=words.with_unit(entry))
+        names[name] = Named(entry.title, value=words.printed_with_unit(entry))
     return names
 
 

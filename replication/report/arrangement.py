@@ -164,14 +164,21 @@ class Arrangement:
             by_hand = next(filter(None, ways), "")
         facts = tables.facts(record, self.names)
         return Card(
-            record, is_open, mathml, formula, by_hand, findings, facts, tables.tried(record)
+            record,
+            is_open,
+            mathml,
+            formula,
+            by_hand,
+            findings,
+            facts,
+            tables.explanation_tables(record),
         )
 
     @property
     def repeated(self) -> list[tuple[ClaimRecord, str]]:
         """The claims that repeat others or are chosen, each with what it agrees with."""
         records = self.groups["repeated"].values()
-        return [(record, words.repetition(record, self.names)) for record in records]
+        return [(record, words.repetition_in_words(record, self.names)) for record in records]
 
     @property
     def undecided(self) -> list[tuple[str, list[ClaimRecord]]]:
@@ -244,7 +251,7 @@ class Arrangement:
         The reasons are those for which a true text is not named first.
         """
         rates = measured_rates()
-        return words.power(rates), rates.rates(), rates.table(), rates.reasons()
+        return words.power_in_words(rates), rates.rates(), rates.table(), rates.reasons()
 
 
 def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:

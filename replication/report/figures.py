@@ -23,13 +23,13 @@ WIDTH = 440
 Points = Iterable[tuple[float, float]]
 
 
-def draw(record: Record) -> dict[str, str]:
+def draw_figures(record: Record) -> dict[str, str]:
     """Draw the figures, by name, for which the record has data: with a misprint it may have none.
 
     On the page they have the page's background; as separate files they have a white one.
     """
     figures = {
-        "comparison": (_comparison, _observed(record)),
+        "comparison": (_approaches_plot, _observed(record)),
         "sensitivity": (_sensitivity, record.sensitivity),
         "figure-3": (_figure_3, record.curves),
         "figure-5": (_figure_5, record.velocity_curve.velocity),
@@ -177,7 +177,7 @@ def _observed(record: Record) -> list[float]:
     return [a.computed for a in record.approaches if a.kind == "observed" and a.computed]
 
 
-def _comparison(record: Record) -> _Plot:
+def _approaches_plot(record: Record) -> _Plot:
     """Show X/R by each approach in a row: computed as filled marks, printed or quoted as hollow."""
     observed = _observed(record)
     shown = [a for a in record.approaches if a.kind != "observed"]

@@ -11,7 +11,7 @@ from html import escape
 from html.entities import html5
 from typing import NamedTuple
 
-from reference.ledger import shown
+from reference.ledger import as_shown
 from reference.units import superscript
 from replication.text import powers_of_ten
 
@@ -119,13 +119,13 @@ class Prose:
 _COMMANDS = {"leq": "≤ ", "geq": "≥ ", "quad": " ", "text": ""}
 
 
-def quoted(text: str) -> str:
+def plain_quotation(text: str) -> str:
     r"""Convert a quotation from the report's LaTeX to plain text.
 
-    >>> quoted(r"then $\beta = ⟦3^2⟧$, where $k_t\rho_t \leq \ln(2)$")
+    >>> plain_quotation(r"then $\beta = ⟦3^2⟧$, where $k_t\rho_t \leq \ln(2)$")
     'then β = ⟦3²⟧, where k_t ρ_t ≤ ln(2)'
     """
-    text = re.sub(r"(?<=\w)(?=\\)", " ", shown(text))
+    text = re.sub(r"(?<=\w)(?=\\)", " ", as_shown(text))
 
     def sign(command: re.Match[str]) -> str:  # HTML names letters as LaTeX does
         name = command[1]

@@ -13,8 +13,8 @@ from reference.scheme import Scheme
 from replication.audit import record as r
 from replication.audit.assessment import Comparison, ConfirmedRange, Reading
 from replication.audit.comparison import SHARES
-from replication.report.prose import Named, quoted
-from replication.report.words import measured, shown_range, with_unit
+from replication.report.prose import Named, plain_quotation
+from replication.report.words import measured, printed_with_unit, shown_range
 from replication.text import Table, between, number, quantity, rounded
 from spreadsheets.sheets import cells_of_claims
 
@@ -80,10 +80,10 @@ MAIN = (
 """The ids of the report's main results."""
 
 
-def main(record: r.Record) -> Table:
+def main_results(record: r.Record) -> Table:
     """Return the report's main results, as printed and as computed."""
     rows = [
-        (c.claim.title, with_unit(c.claim), measured(c.computed, c.claim.unit), c.verdict)
+        (c.claim.title, printed_with_unit(c.claim), measured(c.computed, c.claim.unit), c.verdict)
         for c in record.claims
         if c.id in MAIN and c.computed is not None
     ]
@@ -111,7 +111,7 @@ def not_as_printed(record: r.Record) -> Table:
         if entry.id in needed:
             texts[last] = "derived: " * (last == as_printed) + " or ".join(needed[entry.id])
         own = (texts.get(head, "") for head in heads)
-        rows.append((f"`{entry.id}`", with_unit(entry.claim), *own))
+        rows.append((f"`{entry.id}`", printed_with_unit(entry.claim), *own))
     return Table("What does not come out as printed", ("number", "printed", *heads), rows)
 
 
@@ -125,7 +125,7 @@ def significant(text: str) -> int:
     return len(re.sub(r"\D", "", mantissa).lstrip("0")) or 1
 
 
-def tried(record: r.ClaimRecord) -> list[Table]:
+def explanation_tables(record: r.ClaimRecord) -> list[Table]:
     """Return the explanations tried for a claim that fails, and the figures that judge a remark."""
     figures = [(f.means, measured(f.value, f.unit, 5) or NO_VALUE) for f in record.figures]
     slips = [(s.name, str(s.departures), measured(s.value, "1", 5), s.fits) for s in record.slips]
@@ -193,7 +193,7 @@ def repairs(listed: Iterable[r.Repair], claim: str = "") -> Table:
     rows = []
     for repair in listed:
         failing = ", ".join(f"`{name}`" for name in repair.failing if name != claim) or "nothing"
-        texts = f"`{repair.entry}`", quoted(repair.original), quoted(repair.text)
+        texts = f"`{repair.entry}`", plain_quotation(repair.original), plain_quotation(repair.text)
         rows.append((*texts, repair.kind, repair.reading or "as printed", failing))
     heads = ("text of", "printed", "instead", "edit", "read", "what else still fails")
     caption = "Misprints that would give it: one edit of the text, all else as printed"
@@ -240,7 +240,7 @@ def proven(records: Iterable[r.ClaimRecord]) -> Table:
     return Table("Cells of Table A-1", ("what", "cell", "computed", "proven range"), rows)
 
 
-def approaches(record: r.Record) -> Table:
+def approach_table(record: r.Record) -> Table:
     """Return X/R by every approach."""
     rows = [
         (f"{a.kind}: {a.name}",
@@ -251,7 +251,7 @@ def approaches(record: r.Record) -> Table:
     return Table("Normalized depth X/R", ("approach", "computed", "printed"), rows)
 
 
-def ladders(record: r.Record) -> Table:
+def ladder_table(record: r.Record) -> Table:
     """Return the sheet's final depth: a row for each time step, a column for case and scheme."""
     columns = dict.fromkeys((level.beta, level.scheme) for level in record.ladders)
     rows: dict[float, list[str]] = {}
@@ -263,7 +263,7 @@ def ladders(record: r.Record) -> Table:
     return Table(caption, ("time step", *heads), [tuple(row) for row in rows.values()])
 
 
-def sensitivity(case: r.Sensitivity) -> Table:
+def sensitivity_table(case: r.Sensitivity) -> Table:
     """Return how the depth of a case changes over the range of each input."""
     rows = [
         (e.input.replace("_", " "), f"{case.elasticities[e.input]:+.3f}", shown_range(e),
@@ -275,7 +275,7 @@ def sensitivity(case: r.Sensitivity) -> Table:
     return Table(f"Derivatives and stated ranges, beta = {case.beta:g}", heads, rows)
 
 
-def scatter(record: r.Record) -> Table:
+def scatter_table(record: r.Record) -> Table:
     """Return the scatter of velocity and X/R over the particles of the stream, by three laws."""
     shares = [f"V and X/R that {number(100 * share)} % do not exceed" for share in SHARES]
     rows = []

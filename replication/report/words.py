@@ -10,7 +10,7 @@ from replication.audit import record as r
 from replication.audit.assessment import Verdict
 from replication.cases import INPUTS
 from replication.power import Power
-from replication.report.prose import Named, quoted
+from replication.report.prose import Named, plain_quotation
 from replication.text import between, number, quantity
 
 ABOUT = (
@@ -45,7 +45,7 @@ MEANINGS: Mapping[Verdict, str] = {
 # Numbers
 
 
-def with_unit(claim: Claim) -> str:
+def printed_with_unit(claim: Claim) -> str:
     """Return what the report prints, as it is shown: a number with its unit, or the words."""
     return quantity(claim.shown, claim.unit)
 
@@ -95,7 +95,8 @@ def names_of(record: r.Record) -> dict[str, Named]:
         for i in record.inferred
     }
     claims = {
-        c.id: Named(c.claim.title, f"claim-{c.id}", with_unit(c.claim)) for c in record.claims
+        c.id: Named(c.claim.title, f"claim-{c.id}", printed_with_unit(c.claim))
+        for c in record.claims
     }
     return equations | inferred | claims
 
@@ -103,7 +104,7 @@ def names_of(record: r.Record) -> dict[str, Named]:
 # Sentences
 
 
-def counted(counts: r.Counts) -> str:
+def counts_in_words(counts: r.Counts) -> str:
     """Say how many numbers and equations come out as printed."""
     numbers = "number does" if counts.failing == 1 else "numbers do"
     equations = "does" if counts.equations_failing == 1 else "do"
@@ -153,7 +154,7 @@ def density(record: r.Record) -> str:
     taken = number(usual.assumed)
     sentence = (
         f"The report prints no {entry.title}. It is inferred from {len(entry.evidence)} cells of "
-        f"Table A-1, with the sphere's mass in place of the printed {with_unit(mass)}"
+        f"Table A-1, with the sphere's mass in place of the printed {printed_with_unit(mass)}"
     )
     if usual.assumed > usual.with_printed_mass[1]:
         sentence += (
@@ -180,7 +181,7 @@ def culprit(record: r.Record) -> str:
 
 def swap(repair: r.Repair) -> str:
     """Return what a repair changes: the text instead of the original."""
-    return f"{quoted(repair.text)} for {quoted(repair.original)}"
+    return f"{plain_quotation(repair.text)} for {plain_quotation(repair.original)}"
 
 
 def inferred(records: Sequence[r.InferredRecord]) -> str:
@@ -206,16 +207,16 @@ def inferred(records: Sequence[r.InferredRecord]) -> str:
     return " ".join(sentences)
 
 
-def repetition(record: r.ClaimRecord, names: Mapping[str, Named]) -> str:
+def repetition_in_words(record: r.ClaimRecord, names: Mapping[str, Named]) -> str:
     """Say with which number of the report one that repeats it, or was chosen, agrees."""
     if record.restated is None:
         return record.explanation
     value = names[record.restated].value
-    differs = value != with_unit(record.claim)
+    differs = value != printed_with_unit(record.claim)
     return f"agrees with `{record.restated}`" + (f", {value}" if differs else "")
 
 
-def power(rates: Power) -> str:
+def power_in_words(rates: Power) -> str:
     """Say what the audit notices of planted misprints."""
     return (
         f"{rates.planted} misprints were planted, one at a time, in copies of the report, and each "

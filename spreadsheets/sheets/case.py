@@ -148,7 +148,7 @@ def if_in_use(row: int, expression: str) -> str:
     return f'=IF(ISNUMBER(A{row}),{expression},"")'
 
 
-class Column(NamedTuple):
+class RowColumn(NamedTuple):
     """A column of the rows: its head, the end of its keys, unit, number format and `Cell.like`."""
 
     head: str
@@ -158,15 +158,15 @@ class Column(NamedTuple):
     like: str = ""
 
 
-COLUMNS: Mapping[str, Column] = {
-    "A": Column("Row", "index"),
-    "B": Column("Time", "time", "s", "0.00E+00"),
-    "C": Column("dx/dt initial", "velocity_initial", "m/s", "0.000", "velocity"),
-    "D": Column("x", "depth", "m", "0.0000E+00", "depth"),
-    "E": Column("d²x/dt²", "deceleration", "m/s^2", "0.0000E+00", "deceleration"),
-    "F": Column("dx/dt final", "velocity_final", "m/s", "0.000", "velocity"),
-    "G": Column("x", "depth_um", "um", "0.0000", "depth_um"),
-    "H": Column("dx/dt middle", "velocity_middle", "m/s", "0.000", "velocity"),
+COLUMNS: Mapping[str, RowColumn] = {
+    "A": RowColumn("Row", "index"),
+    "B": RowColumn("Time", "time", "s", "0.00E+00"),
+    "C": RowColumn("dx/dt initial", "velocity_initial", "m/s", "0.000", "velocity"),
+    "D": RowColumn("x", "depth", "m", "0.0000E+00", "depth"),
+    "E": RowColumn("d²x/dt²", "deceleration", "m/s^2", "0.0000E+00", "deceleration"),
+    "F": RowColumn("dx/dt final", "velocity_final", "m/s", "0.000", "velocity"),
+    "G": RowColumn("x", "depth_um", "um", "0.0000", "depth_um"),
+    "H": RowColumn("dx/dt middle", "velocity_middle", "m/s", "0.000", "velocity"),
 }
 """The columns of the rows, by letter; H is that of the centered scheme only."""
 

@@ -3,10 +3,10 @@
 from collections.abc import Mapping, Sequence
 
 from reference.ledger import Ledger
-from spreadsheets.plan import Cell, Chart, Curve, Rule, SheetPlan, Value, formula, recorded
+from spreadsheets.plan import Cell, Chart, ChartCurve, Rule, SheetPlan, Value, formula, recorded
 from spreadsheets.sheets import messages
 from spreadsheets.sheets.case import CaseSheet
-from spreadsheets.sheets.inputs import inputs_of
+from spreadsheets.sheets.inputs import input_lines
 
 LEVELS = 8
 """Number of time steps, each half of the one before; the fifth is dt_s as written."""
@@ -17,7 +17,7 @@ NO_ORDER = "–"
 
 def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
     """Return the names of all numbers on which the runs depend: inputs, derived numbers and π."""
-    blocks = inputs_of(cases, report=False).values()
+    blocks = input_lines(cases, report=False).values()
     typed = [entry.name for block in blocks for entry in block if entry.attribute]
     return list(dict.fromkeys([*typed, "D_p", "M_p", "pi_", *(case.resistance for case in cases)]))
 
@@ -54,7 +54,7 @@ def convergence(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         _levels(sheet, case, first)
         last = first + LEVELS - 1
         x, y = f"B{first}:B{last}", f"F{first}:F{last}"
-        curves.append(Curve((sheet.name, label), x, y, case.beta))
+        curves.append(ChartCurve((sheet.name, label), x, y, case.beta))
         sheet.row = last + 1
         at_rest = recorded(f"convergence.{case.slug}.rest_um", shown="0.000000")
         sheet.put(A=Cell("At rest, without steps"), D=at_rest)
@@ -113,7 +113,7 @@ def _levels(sheet: SheetPlan, case: CaseSheet, first: int) -> None:
     column("H", "State of the run", "", "state")
 
 
-def _chart(cases: Sequence[CaseSheet], curves: Sequence[Curve]) -> Chart:
+def _chart(cases: Sequence[CaseSheet], curves: Sequence[ChartCurve]) -> Chart:
     def describe(values: Mapping[str, Value]) -> str:
         ends = []
         for case in cases:

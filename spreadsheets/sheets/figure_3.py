@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from reference.ledger import Ledger
-from spreadsheets.plan import Cell, Chart, Curve, SheetPlan, Value, formula
+from spreadsheets.plan import Cell, Chart, ChartCurve, SheetPlan, Value, formula
 from spreadsheets.sheets.case import FIRST_ROW, CaseSheet
 
 _FIRST = 7
@@ -28,7 +28,7 @@ def figure_3(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         sheet.row = 5
         _curve(sheet, case, *columns)
         x, y = (f"{column}{_FIRST}:{column}{_FIRST + case.rows}" for column in columns)
-        curves.append(Curve((case.name, "I1"), x, y, case.beta))
+        curves.append(ChartCurve((case.name, "I1"), x, y, case.beta))
 
     def describe(values: Mapping[str, Value]) -> str:
         ends = ", ".join(

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from reference.ledger import Ledger
-from spreadsheets.plan import Cell, Chart, Curve, Rule, SheetPlan, Value, formula
+from spreadsheets.plan import Cell, Chart, ChartCurve, Rule, SheetPlan, Value, formula
 from spreadsheets.sheets import messages
 from spreadsheets.sheets.case import CaseSheet
 from spreadsheets.sheets.formulas import cap_angle, depth, log1p
@@ -48,7 +48,7 @@ def figure_5(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         )
 
     x, y = f"Q{_FIRST}:Q{_LAST}", f"V{_FIRST}:V{_LAST}"
-    curve = Curve((case.name, "I1"), x, y, case.beta)
+    curve = ChartCurve((case.name, "I1"), x, y, case.beta)
     sheet.chart = Chart(
         at="A7",
         title="Normalized penetration depth against impact velocity",

@@ -31,7 +31,7 @@ sheet asks for another unit (2E-10 for 0.2 ns, 7E8 for 700 MPa), or 8.9 for 8900
 _UP_TO_HALF_A_SPHERE = (1e-4, 0.5)
 
 
-class Input(NamedTuple):
+class InputLine(NamedTuple):
     """A number to be typed in: its defined name, symbol, unit, and what it is.
 
     source: the claim that prints it, or an inferred input. attribute: the attribute of an impact
@@ -84,33 +84,35 @@ def in_si(expression: str, unit: str) -> str:
             return expression
 
 
-def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]]:
+def input_lines(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[InputLine]]:
     """Return the inputs of a workbook of these cases, by block.
 
     report: whether it is the report's own workbook.
     """
     stop_limits = (0.0, 1e6)
     impact = [
-        Input("V_impact", "V", "a1-initial-velocity", "m/s", attribute="velocity"),
-        Input("R_p", "R", "a1-radius", "um", attribute="radius"),
-        Input("rho_p", "ρ_p", "a1-density", "kg/m^3", attribute="particle_density"),
-        Input("rho_t", "ρ_t", f"{INFERRED}target-density", "kg/m^3", attribute="target_density"),
-        Input("dt_s", "Δt", "a-step", "ns", attribute="step"),
-        Input(
+        InputLine("V_impact", "V", "a1-initial-velocity", "m/s", attribute="velocity"),
+        InputLine("R_p", "R", "a1-radius", "um", attribute="radius"),
+        InputLine("rho_p", "ρ_p", "a1-density", "kg/m^3", attribute="particle_density"),
+        InputLine(
+            "rho_t", "ρ_t", f"{INFERRED}target-density", "kg/m^3", attribute="target_density"
+        ),
+        InputLine("dt_s", "Δt", "a-step", "ns", attribute="step"),
+        InputLine(
             "v_stop", "v_stop", "a-stop-velocity", "m/s", attribute="stop_velocity",
             own_limits=stop_limits,
         ),
     ]  # fmt: skip
     if report:
-        impact.append(Input("dt_coarse", "Δt", "coarse-step", "ns"))
+        impact.append(InputLine("dt_coarse", "Δt", "coarse-step", "ns"))
     given = "target resistance, given instead of β and Y_t"
-    resistance = [Input("R_t", "R_t", "a1-resistance", "Pa", given, attribute="resistance")]
+    resistance = [InputLine("R_t", "R_t", "a1-resistance", "Pa", given, attribute="resistance")]
     if not cases[0].resistance_given:
         over = "target resistance over flow stress"
         resistance = [
-            Input("Y_t", "Y_t", "flow-stress", "MPa", attribute="flow_stress"),
+            InputLine("Y_t", "Y_t", "flow-stress", "MPa", attribute="flow_stress"),
             *(
-                Input(
+                InputLine(
                     f"beta{case.input_suffix}", "β", f"depth-beta-{case.beta}-beta",
                     meaning=f"{over}, {case.name}", attribute="beta",
                 )
@@ -120,38 +122,40 @@ def inputs_of(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Input]
     return {"Impact": impact, "Target resistance": resistance, **_OF_NO_CASE}
 
 
-_OF_NO_CASE: Mapping[str, list[Input]] = {
+_OF_NO_CASE: Mapping[str, list[InputLine]] = {
     "Velocities of Figure 5": [
-        Input("V_from", "V", "figure-5-velocity-least", "m/s", "velocity of the first point"),
-        Input("V_to", "V", "figure-5-velocity-greatest", "m/s", "velocity of the last point"),
+        InputLine("V_from", "V", "figure-5-velocity-least", "m/s", "velocity of the first point"),
+        InputLine("V_to", "V", "figure-5-velocity-greatest", "m/s", "velocity of the last point"),
     ],
     "Craters and particles": [
-        Input("CV_PV", "CV/PV", "volume-ratio", own_limits=_UP_TO_HALF_A_SPHERE),
-        Input("CV_PV_line", "CV/PV", "volume-ratio-line", own_limits=_UP_TO_HALF_A_SPHERE),
-        Input("D_mean", "D", "mean-diameter", "um"),
-        Input("d_min", "d_min", "particle-size-least", "um", "a particle’s diameter, for Eq. 1"),
-        Input(
+        InputLine("CV_PV", "CV/PV", "volume-ratio", own_limits=_UP_TO_HALF_A_SPHERE),
+        InputLine("CV_PV_line", "CV/PV", "volume-ratio-line", own_limits=_UP_TO_HALF_A_SPHERE),
+        InputLine("D_mean", "D", "mean-diameter", "um"),
+        InputLine(
+            "d_min", "d_min", "particle-size-least", "um", "a particle’s diameter, for Eq. 1"
+        ),
+        InputLine(
             "d_max", "d_max", "particle-size-greatest", "um",
             "another particle’s diameter, for Eq. 1",
         ),
-        Input("observed_ratio", "X/R", "discussion-observed"),
+        InputLine("observed_ratio", "X/R", "discussion-observed"),
     ],
     "Materials": [
-        Input("q_Y", "q/Y_t", "goodier-q"),
-        Input("E_t", "E_t", "elastic-modulus", "GPa"),
-        Input("Y_steel", "Y", "yield-strength", "MPa"),
-        Input("HB_ratio", "HB/UTS", "brinell-ratio"),
-        Input("S_feathery", "S", "strength-feathery", "ksi"),
-        Input("S_clear", "S", "strength-clear", "ksi"),
-        Input("S_bulk", "S", "strength-bulk", "ksi"),
-        Input("Y_copper", "Y_p", "copper-yield", "MPa"),
-        Input("L_typ", "L", "strain-rate-length", "um"),
+        InputLine("q_Y", "q/Y_t", "goodier-q"),
+        InputLine("E_t", "E_t", "elastic-modulus", "GPa"),
+        InputLine("Y_steel", "Y", "yield-strength", "MPa"),
+        InputLine("HB_ratio", "HB/UTS", "brinell-ratio"),
+        InputLine("S_feathery", "S", "strength-feathery", "ksi"),
+        InputLine("S_clear", "S", "strength-clear", "ksi"),
+        InputLine("S_bulk", "S", "strength-bulk", "ksi"),
+        InputLine("Y_copper", "Y_p", "copper-yield", "MPa"),
+        InputLine("L_typ", "L", "strain-rate-length", "um"),
     ],
     "Frank and Zook": [
-        Input("k_1", "k_1", "fz-k1"),
-        Input("k_t", "k_t", "fz-kt"),
-        Input("R_t_RHA", "R_t", "fz-resistance-rha", "MPa"),
-        Input("R_t_lower", "R_t", "fz-resistance-stainless", "MPa"),
+        InputLine("k_1", "k_1", "fz-k1"),
+        InputLine("k_t", "k_t", "fz-kt"),
+        InputLine("R_t_RHA", "R_t", "fz-resistance-rha", "MPa"),
+        InputLine("R_t_lower", "R_t", "fz-resistance-stainless", "MPa"),
     ],
 }  # fmt: skip
 
@@ -190,7 +194,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     sheet.row = 9
     sheet.table(_HEADS, right="CFHIKL", scrolling="C")
     first = sheet.row
-    for block, inputs in inputs_of(cases, report).items():
+    for block, inputs in input_lines(cases, report).items():
         sheet.block(block)
         for entry in inputs:
             sheet.put(**_input(ledger, entry, sheet.row))
@@ -209,7 +213,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     return sheet
 
 
-def _input(ledger: Ledger, entry: Input, row: int) -> dict[str, Cell]:
+def _input(ledger: Ledger, entry: InputLine, row: int) -> dict[str, Cell]:
     """Return the cells of an input's row."""
     if entry.source.startswith(INFERRED):
         style, same, place = "inferred", INFERRED_VALUE, "inferred from Table A-1"

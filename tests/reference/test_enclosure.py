@@ -10,7 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reference.arithmetic import Rationals
-from reference.enclosure import Box, bounds, enclose, satisfying, solve
+from reference.enclosure import Box, bounds, enclose, find_solutions, satisfying
 from reference.printed import Interval
 
 EXACT = Rationals()
@@ -126,7 +126,7 @@ def test_a_search_finds_a_point_or_proves_that_there_is_none(
 def test_inner_parts_are_solutions_and_nothing_outside_the_outer_parts_is(
     name: str, search: tuple[F, F], target: Interval
 ) -> None:
-    result = solve(FUNCTIONS[name], "x", search, target)
+    result = find_solutions(FUNCTIONS[name], "x", search, target)
     for low, high in result.inner:
         assert all(target.contains(at(name, x)) for x in samples(low, high, 20)), "inner"
     for x in samples(*search):
@@ -163,7 +163,9 @@ LOG_ROOT_AND_RECIPROCAL: list[Callable[..., Any]] = [
 
 
 def test_a_search_that_ends_at_once_leaves_everything_open() -> None:
-    solutions = solve(FUNCTIONS["parabola"], "x", BOTH_SIDES, Interval(F(2), F(6)), budget=1)
+    solutions = find_solutions(
+        FUNCTIONS["parabola"], "x", BOTH_SIDES, Interval(F(2), F(6)), budget=1
+    )
     assert solutions.inner == ()
     assert solutions.outer == (BOTH_SIDES,)
     assert solutions.reaches_an_end
@@ -196,7 +198,7 @@ def cube_of_the_cube_root(ar: Any, x: Any) -> Any:
 def test_a_value_on_an_end_that_is_irrational_on_the_way_stays_undecided() -> None:
     third = {"x": (F(1, 3), F(1, 3))}
     assert satisfying([(cube_of_the_cube_root, Interval(F(1, 3), None))], third) == (None, None)
-    solutions = solve(cube_of_the_cube_root, "x", (F(1, 3), F(1)), Interval(F(0), F(1, 3)))
+    solutions = find_solutions(cube_of_the_cube_root, "x", (F(1, 3), F(1)), Interval(F(0), F(1, 3)))
     assert solutions.inner == ()
     assert solutions.outer[0][0] == F(1, 3)
 

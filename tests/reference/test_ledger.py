@@ -10,7 +10,7 @@ from typing import Any, get_args
 import msgspec
 import pytest
 
-from reference.ledger import Claim, Convention, Kind, Lines, entry, load, shown
+from reference.ledger import Claim, Convention, Kind, Lines, as_shown, entry, load
 from reference.printed import Rounding
 from reference.units import same_dimension
 
@@ -185,7 +185,7 @@ def test_a_remark_prints_no_number() -> None:
 
 
 def test_exponents_are_shown_as_superscripts() -> None:
-    assert shown(r"10^{-3}") == "10⁻³"
+    assert as_shown(r"10^{-3}") == "10⁻³"
 
 
 # Copies with a misprint, which leave the ledger as it is

@@ -10,7 +10,7 @@ import pytest
 from running import coldspray
 
 from replication.audit.record import Record
-from replication.workbook import build
+from replication.workbook import build_workbook
 
 FILES = {
     "deep.toml": "[impact]\nradius = " + 5000 * "[",
@@ -23,7 +23,7 @@ FILES = {
 @pytest.fixture(scope="session")
 def our_own(record: Record) -> bytes:
     """The report's workbook, as `coldspray workbook` writes it."""
-    return build(record=record).to_bytes()
+    return build_workbook(record=record).to_bytes()
 
 
 @pytest.fixture(scope="session")

@@ -21,9 +21,9 @@ from running import coldspray
 
 from replication import BETA_5, history
 from replication.bench import measure
-from replication.bench.measure import DIGITS, MEASURES, STEPS, Case, Point, Task, build, tasks
+from replication.bench.measure import DIGITS, MEASURES, STEPS, Case, Point, Task, build_case, tasks
 from replication.bench.peers import SOLVERS
-from replication.bench.show import figure, texts
+from replication.bench.show import accuracy_figure, texts
 
 
 def point(error: float, seconds: float, method: str = "closed form", **more: Any) -> Point:
@@ -34,7 +34,7 @@ def point(error: float, seconds: float, method: str = "closed form", **more: Any
 
 @pytest.fixture(scope="module")
 def beta_5() -> Case:
-    return build("beta-5")
+    return build_case("beta-5")
 
 
 def errors(case: Case, method: str, measure: str) -> list[float]:
@@ -95,7 +95,7 @@ INTERPRETED = (
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
 def test_methods_find_the_exact_depths(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("replication.bench.measure.POINTS", 11)
-    case = build(name)
+    case = build_case(name)
     # The solvers step over the kink of Eq. 13 at x = R, and lose accuracy there.
     kink = 1.0 if name == "beta-5" else 1e4
     met = set()
@@ -109,7 +109,7 @@ def test_methods_find_the_exact_depths(name: str, monkeypatch: pytest.MonkeyPatc
 
 
 def tried(case: Case, task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
-    point, *_ = measure.trial(case, task, repeat, limit)
+    point, *_ = measure.measured_points(case, task, repeat, limit)
     return point
 
 
@@ -129,7 +129,7 @@ def test_a_task_that_fails_or_takes_too_long_is_a_gap_with_a_reason(
     assert slow["gap"].endswith("s, more than 0.01 s")
     assert (slow["best"], slow["error"], measure.met(slow)) == (None, None, math.inf)
     monkeypatch.setitem(sys.modules, "heyoka", None)
-    case = build("beta-3")  # for which no integrator is kept
+    case = build_case("beta-3")  # for which no integrator is kept
     task = next(task for task in tasks(case) if task.method == "heyoka")
     reason = "not installed: python -m pip install 'coldspray[bench]'"
     assert tried(case, task)["gap"] == reason
@@ -171,7 +171,11 @@ def test_tasks_take_turns_and_an_interrupted_run_closes_its_progress_bar(
             super().close()
 
     both = [replace(TASK, run=partial(turn, name)) for name in "ab"]
-    for name, instead in (("tasks", lambda _: both), ("build", lambda _: beta_5), ("tqdm", Bar)):
+    for name, instead in (
+        ("tasks", lambda _: both),
+        ("build_case", lambda _: beta_5),
+        ("tqdm", Bar),
+    ):
         monkeypatch.setattr(measure, name, instead)
     (case,) = measure.bench(["beta-5"], repeat=3)["cases"]
     assert "".join(turns[:10]) == "aabb" + "ab" * 3  # warmed up, then in turn
@@ -237,7 +241,7 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path) -> None:
     assert [row["front"] == "true" for row in rows] == [p["front"] for p in case["points"]]
     assert {row["front"] for row in rows} == {"true", "false"}
     drawn = (tmp_path / "bench-beta-5.svg").read_bytes()
-    assert drawn == figure(case)
+    assert drawn == accuracy_figure(case)
     shown = {text.text for text in ET.fromstring(drawn).iter("{http://www.w3.org/2000/svg}text")}
     assert {point["method"] for point in case["points"] if not point["gap"]} <= shown
     assert {path.name for path in tmp_path.iterdir()} == {

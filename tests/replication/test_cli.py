@@ -19,7 +19,7 @@ from workbooks import Fake, rewritten, stored
 from replication import workbook
 from replication.audit.record import Record
 from replication.cli import COMMANDS
-from replication.cli.parser import parse
+from replication.cli.parser import parse_command_line
 from replication.report.document import schema_text
 from spreadsheets.engines import Engine
 
@@ -222,7 +222,7 @@ def test_help_ends_with_an_example_that_the_command_reads(command: str) -> None:
     example = out.partition("\nexample: ")[2]
     program, *arguments = shlex.split(example)
     assert program == "coldspray"
-    assert parse(COMMANDS, arguments).command == command
+    assert parse_command_line(COMMANDS, arguments).command == command
     assert "--json" in out
 
 
@@ -404,7 +404,7 @@ def test_a_longer_sheet_as_the_sheet_advises(run: Run, tmp_path: Path) -> None:
     assert run(*OWN, "--beta", "4", "--rows", "300", "-o", "longer.xlsx")[0] == 0
     longer = tmp_path / "longer.xlsx"
     assert len(stored(longer, formulas=True)["Sheet beta 4"]) > 300 * 7
-    depth = workbook.build(workbook.BETA_5).plan.where["depth_um"][1]
+    depth = workbook.build_workbook(workbook.BETA_5).plan.where["depth_um"][1]
     assert stored(longer)["Sheet beta 4"][depth] == cells[depth]
 
 

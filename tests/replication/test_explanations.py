@@ -3,14 +3,16 @@
 import math
 import random
 from fractions import Fraction as F
+from typing import cast
 
 import pytest
 
 from reference.arithmetic import Floats
 from reference.equations import EquationError, evaluate
-from reference.ledger import Ledger, load
+from reference.ledger import Claim, Ledger, load
 from replication.audit.assessment import Verdict
 from replication.audit.audit import Audit
+from replication.audit.crosschecks import COMPARED_WITH, CROSS_CHECKS
 from replication.audit.explain import (
     EQUATION_EDITS,
     Explainer,
@@ -21,18 +23,18 @@ from replication.audit.record import Record
 from replication.audit.rewritings import number_rewritings, rewritings_of
 from replication.audit.verdict import Judge, assess_equation, disagreeing, follows
 from replication.power import (
-    Counts,
     NotFirst,
     Plant,
+    PlantCounts,
     Power,
     controls,
     interval,
     is_false_alarm,
+    judge_misprint,
+    measure_power,
     measured_rates,
     new_failures,
     plants,
-    power,
-    trial,
 )
 
 LEDGER = load()
@@ -292,7 +294,7 @@ def test_every_number_and_every_equation_gets_misprints() -> None:
 def test_a_planted_misprint_is_noticed_where_it_should_be(
     name: str, text: str, failing: set[str]
 ) -> None:
-    outcome = trial(TRUTH, Plant(name, LEDGER.printed_text(name), text, ""))
+    outcome = judge_misprint(TRUTH, Plant(name, LEDGER.printed_text(name), text, ""))
     assert outcome.failing == failing
     assert outcome.counts.visible == bool(failing)
 
@@ -300,7 +302,7 @@ def test_a_planted_misprint_is_noticed_where_it_should_be(
 @pytest.mark.parametrize("symbol", [r"\pi", r"\beta", r"\alpha", "k_t", "k_1"])
 def test_an_exponent_that_is_no_number_is_a_failure_and_ends_nothing(symbol: str) -> None:
     plant = Plant("eq8", LEDGER.printed_text("eq8"), f"F_r = q (2a)^{symbol}", "symbol changed")
-    outcome = trial(TRUTH, plant)
+    outcome = judge_misprint(TRUTH, plant)
     assert "goodier-beta" in outcome.failing
     assert outcome.counts.repaired_first
     assert outcome.why == ""
@@ -321,7 +323,7 @@ def test_an_exponent_that_is_no_number_is_a_failure_and_ends_nothing(symbol: str
     ],
 )
 def test_the_true_text_is_the_first_repair(name: str, text: str) -> None:
-    outcome = trial(TRUTH, Plant(name, LEDGER.printed_text(name), text, ""))
+    outcome = judge_misprint(TRUTH, Plant(name, LEDGER.printed_text(name), text, ""))
     assert outcome.first is not None
     assert (outcome.first.entry, outcome.first.text) == (name, LEDGER.printed_text(name))
     assert outcome.why == ""
@@ -345,7 +347,7 @@ def test_the_true_text_is_the_first_repair(name: str, text: str) -> None:
     ],
 )  # fmt: skip
 def test_why_a_true_text_is_not_the_first_repair(name: str, text: str, why: str) -> None:
-    assert trial(TRUTH, Plant(name, LEDGER.printed_text(name), text, "")).why == why
+    assert judge_misprint(TRUTH, Plant(name, LEDGER.printed_text(name), text, "")).why == why
 
 
 def test_reasons_are_counted() -> None:
@@ -412,8 +414,38 @@ def test_intervals_of_rates_are_wilsons() -> None:
     low, high = (100 * (center + sign * half) / (1 + z * z / n) for sign in (-1, 1))
     assert interval(k, n) == f"{low:.1f} to {high:.1f}"
     assert interval(0, 0) == "-"
-    nothing = Power(seed=1, by_kind={"bound": Counts()})
+    nothing = Power(seed=1, by_kind={"bound": PlantCounts()})
     assert {row[2] for row in nothing.rates().rows} == {"-"}
+
+
+class Reader:
+    """Stands for the ledger, and notes the ids of what is read from it."""
+
+    def __init__(self) -> None:
+        self.names: set[str] = set()
+        self.sources = LEDGER.sources
+        self.claims = self
+
+    def value(self, name: str) -> F:
+        self.names.add(name)
+        return LEDGER.value(name)
+
+    def __getitem__(self, name: str) -> Claim:
+        self.names.add(name)
+        return LEDGER.claims[name]
+
+
+@pytest.mark.parametrize("name", CROSS_CHECKS)
+def test_a_cross_check_reads_what_it_is_said_to_be_compared_with(name: str) -> None:
+    reader = Reader()
+    CROSS_CHECKS[name](cast(Ledger, reader))
+    assert reader.names | {name} == {name, *COMPARED_WITH[name]}
+
+
+def test_what_a_number_is_compared_with_may_change_its_verdict() -> None:
+    wrong = Plant("a1-radius", "1.10E-05", "21.10E-05", "digit inserted")
+    failing, _ = judge_misprint(TRUTH, wrong)
+    assert "autodyne-time" in failing
 
 
 @pytest.mark.slow
@@ -424,13 +456,13 @@ def test_no_harmless_rewriting_changes_a_verdict() -> None:
 @pytest.mark.slow
 def test_the_rates_on_the_page_are_measured_again() -> None:
     rates = measured_rates()
-    assert power(LEDGER, rates.planted, rates.seed, lambda plants: plants) == rates
+    assert measure_power(LEDGER, rates.planted, rates.seed, lambda plants: plants) == rates
 
 
 @pytest.mark.slow
 def test_judging_what_depends_on_a_plant_is_judging_everything() -> None:
     """Of 50 plants none makes a claim or an equation fail that does not depend on it."""
     for plant in random.Random(3).sample(EVERYTHING, 50):
-        failing = trial(TRUTH, plant).failing
+        failing = judge_misprint(TRUTH, plant).failing
         audit = Audit(LEDGER.misprint(plant.entry, plant.text), every_convention=False)
         assert new_failures(TRUTH, audit, LEDGER.claims, LEDGER.equations) == failing, plant

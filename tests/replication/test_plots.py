@@ -20,7 +20,7 @@ from replication.error.ladder import converge, ladder
 from replication.fit import fit, read_measurements
 from replication.models.motion import history
 from replication.models.sheet import run
-from replication.report.figures import draw
+from replication.report.figures import draw_figures
 from replication.sweep import compute, read_plan
 from spreadsheets.styles import CURVES
 
@@ -116,7 +116,7 @@ FIGURES: dict[str, tuple[Callable[[Path], Figure], int]] = {
 @pytest.fixture(scope="module")
 def figures(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Figure]:
     folder = tmp_path_factory.mktemp("figures")
-    return {name: draw(folder) for name, (draw, _) in FIGURES.items()}
+    return {name: draw_figures(folder) for name, (draw_figures, _) in FIGURES.items()}
 
 
 @pytest.fixture(scope="module")
@@ -171,7 +171,7 @@ def test_each_form_is_undated(ending: str, start: bytes, tmp_path: Path) -> None
 
 def test_a_case_has_one_color_everywhere(record: Record) -> None:
     """On the page, in the workbook (which takes CURVES itself) and in all figures."""
-    page = ET.fromstring(draw(record)["figure-3"])
+    page = ET.fromstring(draw_figures(record)["figure-3"])
     filled = [element.get("fill") for element in page.iter(f"{SVG}circle")]
     assert set(filled) == {CURVES["3"].color}
     assert plots.look_of(BETA_3).color == CURVES["3"].color

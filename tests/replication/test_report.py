@@ -48,7 +48,7 @@ from replication.report.document import (
     equation_document,
     schema_text,
 )
-from replication.report.figures import draw
+from replication.report.figures import draw_figures
 from replication.report.prose import HTML as PAGE
 from replication.report.prose import TERMINAL, Named, Prose
 from replication.text import json_text
@@ -220,7 +220,7 @@ def test_inputs_without_a_meaning_end_no_audit(
     for name, text in misprints.items():
         ledger = ledger.misprint(name, text)
     spoiled = Audit(ledger, every_convention=False).record()
-    assert draw(spoiled).keys() == drawings
+    assert draw_figures(spoiled).keys() == drawings
     files = contents(spoiled, {})
     sound(files["audit.html"].decode())
     jsonschema.validate(json.loads(files["audit.json"]), SCHEMA)
@@ -370,7 +370,7 @@ def test_symbols_are_typeset(files: dict[str, bytes], root: ET.Element, record: 
 def test_a_text_of_the_ledger_cannot_become_markup(record: Record) -> None:
     hostile = "<script>alert(1)</script>"
     claims = [change(c, claim=change(c.claim, title=hostile)) for c in record.claims]
-    assert hostile not in html(change(record, claims=claims), draw(record))
+    assert hostile not in html(change(record, claims=claims), draw_figures(record))
 
 
 def test_figures_take_ink_and_paper_of_the_page(files: dict[str, bytes]) -> None:

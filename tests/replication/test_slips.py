@@ -14,26 +14,26 @@ from replication.audit.slips import (
     JOINS,
     LOGARITHMS,
     SCALES,
-    Inputs,
+    Eq16Inputs,
     Member,
     base_10,
     bracket,
     densities_exchanged,
     density_ratio_on_k_1,
+    depth_with_slips,
     divisor,
     doubled,
     family,
     logarithm,
     multiplied_by_k_t,
     numbers_named,
-    ratio,
 )
 
 LEDGER = load()
 RESULTS = Results(LEDGER)
 ARMOR, STAINLESS = (LEDGER.claims[f"frank-zook-{target}"] for target in ("rha", "stainless"))
-X = Inputs(L_D=2 / 3, rho_p=8900.0, rho_t=7850.0, k_1=0.557, k_t=1.046, V=500.0, R_t=9.13e9)
-Y = Inputs(L_D=2 / 3, rho_p=8900.0, rho_t=7850.0, k_1=0.557, k_t=1.046, V=500.0, R_t=7.6e9)
+X = Eq16Inputs(L_D=2 / 3, rho_p=8900.0, rho_t=7850.0, k_1=0.557, k_t=1.046, V=500.0, R_t=9.13e9)
+Y = Eq16Inputs(L_D=2 / 3, rho_p=8900.0, rho_t=7850.0, k_1=0.557, k_t=1.046, V=500.0, R_t=7.6e9)
 SUM = 2 / 3 * 8900 / 7850 + 0.557
 LN_ARMOR, LN_STEEL = (log(1 + 1.046 * 7850 * 500**2 / R_t) for R_t in (9.13e9, 7.6e9))
 SLIPS = [*BRACKETS, *DIVISORS, *LOGARITHMS, *JOINS, *SCALES, *EXCHANGES]
@@ -42,8 +42,8 @@ SLIPS = [*BRACKETS, *DIVISORS, *LOGARITHMS, *JOINS, *SCALES, *EXCHANGES]
 def test_without_a_slip_it_is_eq_16_as_printed() -> None:
     z = 1.046 * 7850 * 500**2 / 9.13e9
     printed = (2 / 3 * 8900 / 7850 + 0.557) / (2 * 1.046) * log(1 + z)
-    assert ratio(X, ()) == pytest.approx(printed, rel=1e-14, abs=0)
-    assert bracket(X) / divisor(X) * logarithm(X) == ratio(X, ())
+    assert depth_with_slips(X, ()) == pytest.approx(printed, rel=1e-14, abs=0)
+    assert bracket(X) / divisor(X) * logarithm(X) == depth_with_slips(X, ())
 
 
 @pytest.mark.parametrize(
@@ -65,13 +65,15 @@ def test_without_a_slip_it_is_eq_16_as_printed() -> None:
         "LOG",
     ],
 )
-def test_slips_computed_apart(member: Member, inputs: Inputs, value: float) -> None:
-    assert ratio(inputs, member) == pytest.approx(value, rel=1e-14, abs=0)
+def test_slips_computed_apart(member: Member, inputs: Eq16Inputs, value: float) -> None:
+    assert depth_with_slips(inputs, member) == pytest.approx(value, rel=1e-14, abs=0)
 
 
 def test_every_slip_changes_the_value_and_no_two_do_it_alike() -> None:
-    values = Counter(round(ratio(X, (slip,)), 12) for slip in SLIPS if slip.says != "1 - for 1 +")
-    assert round(ratio(X, ()), 12) not in values
+    values = Counter(
+        round(depth_with_slips(X, (slip,)), 12) for slip in SLIPS if slip.says != "1 - for 1 +"
+    )
+    assert round(depth_with_slips(X, ()), 12) not in values
     alike = [value for value, count in values.items() if count > 1]
     # "no divisor" is 1, as 1/2 for k_t makes it, and the printed one is 2: these are one value.
     assert len(alike) <= 2
@@ -124,7 +126,7 @@ def test_the_expected_number_of_accidents_counts_what_shifted_targets_meet() -> 
     values = []
     for member in family(LEDGER, X):
         try:
-            values.append(ratio(X, member))
+            values.append(depth_with_slips(X, member))
         except (ArithmeticError, ValueError):
             continue
     distinct = {f"{value:.12e}" for value in values if value > 0}
@@ -138,7 +140,7 @@ def test_the_expected_number_of_accidents_counts_what_shifted_targets_meet() -> 
 
 
 def test_exchanged_densities_are_exchanged_in_both_places() -> None:
-    exchanged = ratio(X, (densities_exchanged,))
+    exchanged = depth_with_slips(X, (densities_exchanged,))
     z = 1.046 * 8900 * 500**2 / 9.13e9
     by_hand = (2 / 3 * 7850 / 8900 + 0.557) / (2 * 1.046) * log(1 + z)
     assert exchanged == pytest.approx(by_hand, rel=1e-14, abs=0)

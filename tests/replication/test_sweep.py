@@ -258,7 +258,7 @@ def test_every_run_writes_the_same_bytes_and_parts_make_up_the_whole(
     plan, told = plan_of(tmp_path, STREAM.format(samples=2 * sweep.BLOCK + 17)), list[int]()
     files = [tmp_path / f"{name}.{suffix}" for name in ("whole", "again", "first", "rest")]
     for file, numbers in zip(files, (None, None, range(1), range(1, 3)), strict=True):
-        sweep.write(plan, file, numbers=numbers, done=told.append)
+        sweep.write_sweep(plan, file, numbers=numbers, done=told.append)
     assert told == [sweep.BLOCK, sweep.BLOCK, 17] * 3
     contents = [file.read_bytes() for file in files]
     assert contents[0] == contents[1]
@@ -375,7 +375,7 @@ def test_a_draft_is_on_the_disk_before_it_is_renamed(
 @pytest.mark.slow
 def test_dask_writes_the_same_cases(tmp_path: Path) -> None:
     plan = plan_of(tmp_path, STREAM.format(samples=1000))
-    sweep.write(plan, tmp_path / "here.parquet")
+    sweep.write_sweep(plan, tmp_path / "here.parquet")
     command = [sys.executable, "-W", "error", EXAMPLES / "on_dask.py", tmp_path / "plan.toml"]
     for _ in range(2):  # the second run finds the part of the first
         subprocess.run([*command, tmp_path / "parts"], check=True, capture_output=True)

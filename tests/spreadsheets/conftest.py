@@ -30,8 +30,8 @@ def engine(request: pytest.FixtureRequest) -> Engine:
 
 @pytest.fixture(scope="session")
 def build(record: Record) -> Callable[..., Workbook]:
-    """`workbook.build` with a finished audit, which all workbooks share."""
-    return partial(workbook.build, record=record)
+    """`workbook.build_workbook` with a finished audit, which all workbooks share."""
+    return partial(workbook.build_workbook, record=record)
 
 
 @pytest.fixture(scope="session")

@@ -16,7 +16,7 @@ from workbooks import rewritten, usable
 
 from replication.workbook import Workbook
 from spreadsheets import emit, safely
-from spreadsheets.plan import Cell, Chart, Curve, SheetPlan, WorkbookPlan, formula
+from spreadsheets.plan import Cell, Chart, ChartCurve, SheetPlan, WorkbookPlan, formula
 
 
 def plan_of(**cells: Cell) -> WorkbookPlan:
@@ -118,7 +118,7 @@ def test_what_is_not_available_is_stored_as_an_error_and_not_drawn() -> None:
     }  # fmt: skip
     chart = Chart(
         at="D1", title="T", x_title="x", y_title="y", size=(100, 100),
-        curves=[Curve(("S", "A1"), "A1:A2", "B1:B2", beta="3")], describe=lambda _: "a chart",
+        curves=[ChartCurve(("S", "A1"), "A1:A2", "B1:B2", beta="3")], describe=lambda _: "a chart",
     )  # fmt: skip
     plan = WorkbookPlan(sheets=(SheetPlan(name="S", cells=cells, chart=chart),))
     values = {"x[0]": 1.0, "x[1]": "#N/A", "y[0]": 2.0, "y[1]": "#N/A"}

@@ -17,7 +17,7 @@ from workbooks import BY_NAME, Fake, usable
 from spreadsheets import emit, engines
 from spreadsheets.engines import Engine, EngineError, Values
 from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan
-from spreadsheets.verify import Difference, EngineCheck, compare, verify
+from spreadsheets.verify import CellDifference, EngineCheck, compare, verify
 
 WRONG = 12345
 """Stored with every formula, so that an engine that gives the right value has computed it."""
@@ -244,13 +244,15 @@ def test_no_wrong_cell_and_several_rounded_ones(check: Callable[..., EngineCheck
 
 def test_a_sheet_that_is_lost_or_new_is_seen(check: Callable[..., EngineCheck]) -> None:
     lost = {**EXPECTED, "Lost": {"A1": 1.0}}
-    assert check({}, lost).wrong == [Difference("Lost", "A1", 1.0, None)]
-    assert check({}, surplus=(("New", "A1", 1.0),)).wrong == [Difference("New", "A1", None, 1.0)]
+    assert check({}, lost).wrong == [CellDifference("Lost", "A1", 1.0, None)]
+    assert check({}, surplus=(("New", "A1", 1.0),)).wrong == [
+        CellDifference("New", "A1", None, 1.0)
+    ]
 
 
 def test_empty_text_is_blank_and_only_named_cells_are_allowed_a_distance() -> None:
     expected = {"S": {"A1": 10.0, "A2": 10.0, "A3": True}}
     result = {"S": {"A1": 10.1, "A2": 10.1, "A3": True, "B1": ""}}
     (left,) = compare(expected, result, {("S", "A1"): 0.2})
-    assert left == Difference("S", "A2", 10.0, 10.1)
+    assert left == CellDifference("S", "A2", 10.0, 10.1)
     assert len(compare(expected, result, {("S", "A1"): 0.05})) == 2  # it is not relative

@@ -26,7 +26,7 @@ from spreadsheets import emit
 from spreadsheets.engines import Engine
 from spreadsheets.plan import Value
 from spreadsheets.sheets import report_cases
-from spreadsheets.sheets.inputs import inputs_of
+from spreadsheets.sheets.inputs import input_lines
 from spreadsheets.verify import compare, tolerances
 
 LEDGER = load()
@@ -127,7 +127,7 @@ def typed_inputs(
     texts that say whether an input is the report's, and for runs that are not live.
     """
     draw, ledger = Random(seed + 1).uniform, LEDGER
-    entries = chain.from_iterable(inputs_of(report_cases(), report=True).values())
+    entries = chain.from_iterable(input_lines(report_cases(), report=True).values())
     for source in [entry.source for entry in entries if entry.name in MATERIALS]:
         number = float(LEDGER.value(source) / to_si(LEDGER.claims[source].unit))
         ledger = ledger.misprint(source, f"{number * draw(0.8, 1.25):.3f}")
@@ -197,7 +197,7 @@ def test_numbers_that_a_cell_cannot_hold_are_the_nearest() -> None:
         return [t / 1e9 for t in (math.nextafter(typed, 0), typed, math.nextafter(typed, 1e9))]
 
     step = next(s for s in (n * 1e-13 for n in range(1000, 9000)) if s not in reachable(s))
-    values = workbook.build(replace(BETA_5, step=step)).values
+    values = workbook.build_workbook(replace(BETA_5, step=step)).values
     content = float(values["dt_s"])
     assert abs(content - step) <= math.ulp(step)
     assert values["dt_s.typed"] / 1e9 == content

@@ -3,7 +3,7 @@
 import math
 from fractions import Fraction
 
-from reference.enclosure import solve
+from reference.enclosure import find_solutions
 from reference.ledger import Convention
 from reference.printed import Rounding
 from reference.scheme import Scheme
@@ -237,10 +237,12 @@ def least_middle_density(audit: Results) -> Fraction:
     printed = {name: audit.ledger.value(name) for name in claim.stated}
     function = audit.ledger.function(claim, scheme=Scheme.CENTERED)
     admitted = audit.judge.inference(DENSITY, scheme=Scheme.CENTERED).outer.ends
-    return solve(function, DENSITY, admitted, claim.target(), SHEET_BUDGET, printed).outer[0][0]
+    return find_solutions(function, DENSITY, admitted, claim.target(), SHEET_BUDGET, printed).outer[
+        0
+    ][0]
 
 
-def sheet_depth(audit: Results, beta: int, scheme: Scheme, step: str = "a-step") -> float:
+def depth_by_sheet(audit: Results, beta: int, scheme: Scheme, step: str = "a-step") -> float:
     """Return the sheet's final depth [m] for a beta of the report; the claim gives the step."""
     return sheet.run(case(audit, beta, step=audit[step]), scheme).final_depth
 
@@ -277,8 +279,8 @@ def two_schemes(audit: Results) -> Finding:
         == {Verdict.REPRODUCED},
         "every cell of Table A-1 is reproduced by both",
     )
-    fine = {(b, s): sheet_depth(audit, b, s) for b in (3, 5) for s in Scheme}
-    coarse = {(b, s): sheet_depth(audit, b, s, "coarse-step") for b in (3, 5) for s in Scheme}
+    fine = {(b, s): depth_by_sheet(audit, b, s) for b in (3, 5) for s in Scheme}
+    coarse = {(b, s): depth_by_sheet(audit, b, s, "coarse-step") for b in (3, 5) for s in Scheme}
     rest = {b: depth.final_depth(**case(audit, b).motion) for b in (3, 5)}
     plain_fine_3 = prints(
         "plain_fine_3", "10.031", fine[3, plain], "um",
