@@ -142,7 +142,10 @@ class Explainer:
         return repairs
 
     def _suspects(self, name: str) -> set[str]:
-        """Return what may be misprinted: it, its inputs, its equations and their constants."""
+        """Return what may be misprinted: it, its inputs, its equations and their constants.
+
+        A number that is compared with others may fail by a misprint in one of these.
+        """
         ledger = self.ledger
         if name in ledger.equations:
             suspects = equations = {name, *premises_of(name)}
@@ -150,7 +153,8 @@ class Explainer:
             claim = ledger.claims[name]
             equations = set(claim.uses)
             beside = {key for key in (claim.against, claim.within) if key}
-            suspects = {name, *claim.stated} | beside | equations
+            compared = ledger.claims.keys() & COMPARED_WITH.get(name, ())
+            suspects = {name, *claim.stated} | beside | equations | compared
             for unknown in self.judge.moved.intersection(claim.entries):
                 # Its evidence excludes the nominal value, so what that rests on may be misprinted.
                 evidence = ledger.inferred[unknown.removeprefix(INFERRED)].evidence
@@ -170,9 +174,9 @@ class Explainer:
         if claim.computation is not None:
             pairs = product(claim.computations, self._alternatives)
             return next((r for r, values in pairs if agrees(changed, claim, values, r)), None)
-        if entry != name or not self.judge.is_confirmed(claim, claim.value):
-            return None
-        return None if is_contradicted(changed, name) else ""
+        own = entry == name and self.judge.is_confirmed(claim, claim.value)
+        related = own or entry in COMPARED_WITH.get(name, ())
+        return "" if related and not is_contradicted(changed, name) else None
 
     def _failing(self, entry: str, changed: Ledger) -> set[str]:
         """Return all claims and equations that fail once an entry is changed."""
