@@ -48,13 +48,13 @@ def _beside(claim: Claim) -> tuple[str, bool, bool]:
 
 
 def significant(text: str) -> int:
-    """Return how many digits of a number are left without the zeros at both its ends.
+    """Return how many digits of a number are left without the zeros at both its ends; 1 of a zero.
 
     >>> [significant(text) for text in ("7500", "0.0580", "5.00E+02", "10^7", "~ 0.3", "0", "1/2")]
-    [2, 2, 1, 1, 1, 0, 2]
+    [2, 2, 1, 1, 1, 1, 2]
     """
     mantissa = re.sub(r"[Ee][-+]?\d+|(?<=10)\^.*", "", text)
-    return len("".join(re.findall(r"\d", mantissa)).strip("0"))
+    return max(1, len("".join(re.findall(r"\d", mantissa)).strip("0")))
 
 
 def distance(text: str, original: str) -> float:
