@@ -118,7 +118,7 @@ class Power(PlantCounts, kw_only=True):
             entries.setdefault(missed.why, Counter())[missed.entry] += 1
         rows = [
             (why, f"{names.total()} of {self.visible}", ", ".join(
-                name if count == 1 else f"{name} ({count} times)"
+                f"`{name}`" if count == 1 else f"`{name}` ({count} times)"
                 for name, count in sorted(names.items(), key=lambda pair: (-pair[1], pair[0]))
             ))
             for why, names in sorted(entries.items(), key=lambda pair: (-pair[1].total(), pair[0]))

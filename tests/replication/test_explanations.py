@@ -355,7 +355,7 @@ def test_reasons_are_counted() -> None:
     entries = [("a", "x"), ("b", "y"), ("c", "y"), ("c", "y")]
     missed = [NotFirst(entry=entry, why=why, **part) for entry, why in entries]
     rows = Power(seed=1, visible=9, not_first=missed).reasons().rows
-    assert rows == [("y", "3 of 9", "c (2 times), b"), ("x", "1 of 9", "a")]
+    assert rows == [("y", "3 of 9", "`c` (2 times), `b`"), ("x", "1 of 9", "`a`")]
 
 
 # Controls: the same number or equation in other words
