@@ -444,8 +444,7 @@ def test_a_cross_check_reads_what_it_is_said_to_be_compared_with(name: str) -> N
 
 def test_what_a_number_is_compared_with_may_change_its_verdict() -> None:
     wrong = Plant("a1-radius", "1.10E-05", "21.10E-05", "digit inserted")
-    failing, _ = judge_misprint(TRUTH, wrong)
-    assert "autodyne-time" in failing
+    assert "autodyne-time" in judge_misprint(TRUTH, wrong).failing
 
 
 @pytest.mark.slow
