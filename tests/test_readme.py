@@ -9,6 +9,7 @@ import shlex
 import shutil
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Callable
 from contextlib import chdir
 from fractions import Fraction
@@ -29,6 +30,7 @@ from replication.text import json_text
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
 QUESTIONS = (ROOT / "docs" / "questions.md").read_text("utf-8")
+EQUATION_16 = {"eq16", "eq16-denominator", "eq16-offset", "eq16-power"}
 EXAMPLES = [
     (command, output)
     for page in (README, QUESTIONS)
@@ -97,6 +99,11 @@ def test_the_rates_are_those_measured() -> None:
     )  # fmt: skip
     for head, (_, _, share, interval) in zip(heads, rates.rates().rows, strict=True):
         assert f"| {head} | {share} | {interval} |" in text
+    whys = Counter(missed.why for missed in rates.not_first)
+    faults, alike, pair, _ = [count for _, count in whys.most_common()]
+    assert f"Of the {whys.total()} that are not named first, {faults} stand in Eq. 16," in text
+    assert {m.entry for m in rates.not_first if "both faults" in m.why} <= EQUATION_16
+    assert f"For {alike} another text of the same entry agrees as well, and for {pair} two" in text
 
 
 def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:

@@ -251,10 +251,13 @@ class Arrangement:
         ]
 
     @property
-    def power(self) -> tuple[str, Table, Table]:
-        """What the audit notices of planted misprints: in words, the rates, and these by kind."""
+    def power(self) -> tuple[str, Table, Table, Table]:
+        """What the audit notices of planted misprints: in words, the rates, by kind, and reasons.
+
+        The reasons are those for which a true text is not named first.
+        """
         rates = measured_rates()
-        return words.power_in_words(rates), rates.rates(), rates.table()
+        return words.power_in_words(rates), rates.rates(), rates.table(), rates.reasons()
 
 
 def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:
