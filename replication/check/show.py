@@ -10,11 +10,11 @@ from replication import page
 from replication.check.delimited import column_at, where
 from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, Departure, Examination
-from replication.check.shown import anchor, drawn, safe, whereabouts, wrapped
+from replication.check.shown import NO_LIMIT, anchor, drawn, fitted, safe, whereabouts, wrapped
 from replication.check.table import Line, SchemeTable, cell_name
 from replication.check.words import COLUMNS, INPUTS, is_unit, unit_name
 from replication.check.workbook import Checked
-from replication.text import aligned, quantity, with_unit
+from replication.text import columns, quantity, with_unit
 from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Book, Position
 
@@ -41,10 +41,10 @@ def check_record(check: Checked) -> dict[str, Any]:
         "claims": [
             {
                 "id": number.claim.id, "title": number.claim.title,
-                "where": str(number.claim.place), "printed": number.claim.shown,
+                "place": str(number.claim.place), "printed": number.claim.shown,
                 "unit": number.claim.unit, "interval": str(number.claim.interval()),
                 "cell": cell_name(number.place, True), "found": number.found, "met": number.met,
-                **({"line": where(book, number.place)} if book.is_text else {}),
+                **({"where": where(book, number.place)} if book.is_text else {}),
             }
             for number in check.numbers
         ],
@@ -201,12 +201,12 @@ def fault_contents(difference: Record) -> str:
     return f"holds {found}, should {'read' if reads else 'hold'} {expected}"
 
 
-def check_text(record: Record) -> str:
-    """The result for a terminal, the most important first."""
-    return "\n".join(_check_lines(record))
+def check_text(record: Record, width: int = NO_LIMIT) -> str:
+    """The result for a terminal of this width, the most important first."""
+    return fitted(_check_lines(record, width), width)
 
 
-def _check_lines(record: Record) -> Iterator[str]:
+def _check_lines(record: Record, width: int) -> Iterator[str]:
     yield from (record["verdict"], safe(record["file"], 200))
     first, differences = record["first"], record["differences"]
     if first:
@@ -225,7 +225,7 @@ def _check_lines(record: Record) -> Iterator[str]:
             for d in of_kind[:_MOST]
         ]
         yield from _paragraph(title, lines, len(of_kind))
-    tables = [line for taken in record["taken"] for line in _taken_lines(taken)]
+    tables = [line for taken in record["taken"] for line in _taken_lines(taken, width)]
     yield from _paragraph("What was taken for what", tables)
     yield from _paragraph("Notes", [f"  {safe(note, 200)}" for note in record["notes"]])
     claims = record["claims"]
@@ -234,7 +234,7 @@ def _check_lines(record: Record) -> Iterator[str]:
     rows = [
         (
             f"  {with_unit(claim['printed'], claim['unit'])}",
-            safe(claim.get("line", claim["cell"]), 60),
+            safe(claim.get("where", claim["cell"]), 60),
             with_unit(f"{claim['found']:.7g}", claim["unit"]),
             "as printed" if claim["met"] else f"not in {claim['interval']}",
             claim["title"],
@@ -243,11 +243,12 @@ def _check_lines(record: Record) -> Iterator[str]:
     ]
     if claims:
         met = f"{len(claims)}, {len(claims) - len(unmet)} as printed"
-        yield from ("", f"Of the report's printed numbers it holds {met}", *aligned(rows))
+        yield from ("", f"Of the report's printed numbers it holds {met}")
+        yield columns(rows, width)
     yield from _paragraph("", [], len(shown))
 
 
-def _taken_lines(taken: Record) -> Iterator[str]:
+def _taken_lines(taken: Record, width: int) -> Iterator[str]:
     """What was taken for what in a table, as lines."""
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
@@ -263,7 +264,7 @@ def _taken_lines(taken: Record) -> Iterator[str]:
          _known_by(entry["by"], entry["label"]))
         for name, entry in taken["inputs"].items()
     ]  # fmt: skip
-    yield from aligned([(f"    {name.replace('_', ' ')}", *rest) for name, *rest in entries])
+    yield columns([(f"    {name.replace('_', ' ')}", *rest) for name, *rest in entries], width)
 
 
 _KNOWN_BY = {

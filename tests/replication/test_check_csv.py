@@ -1,6 +1,7 @@
 """`check` reads the rows that somebody's own program wrote as text."""
 
 import math
+import re
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -176,6 +177,20 @@ def test_another_scheme_is_named_with_its_first_row(
 
 def test_the_program_of_these_tests_is_right_without_changes(tmp_path: Path) -> None:
     assert told(csv(scheme(DEEP)), tmp_path) == "clean"
+
+
+def test_every_place_in_a_text_file_is_where(tmp_path: Path) -> None:
+    """Of a difference, a column, and a printed number of the report that the rows hold."""
+    path = tmp_path / "mine.csv"
+    path.write_text(csv(scheme(BETA_5, centered=True)))
+    record = check_record(check_workbook(path))
+    columns = record["taken"][0]["columns"].values()
+    for entry in [*record["differences"], *columns, *record["claims"]]:
+        assert re.search(r"\bline", entry["where"]), entry
+    assert record["claims"]
+    assert all("line" not in claim for claim in record["claims"])
+    assert max(map(len, check_text(record).splitlines())) > 80
+    assert max(map(len, check_text(record, 80).splitlines())) <= 80
 
 
 @pytest.mark.parametrize(("content", "message"), [
