@@ -111,7 +111,7 @@ def not_as_printed(record: r.Record) -> Table:
     *_, last = heads = tuple(dict.fromkeys([as_printed, *filter(None, names)]))
     rows = []
     for entry in failing:
-        digits = significant(entry.claim.text)
+        digits = significant_digits(entry.claim.text)
         texts = {
             reading.name or as_printed: f"{reading.computed:#.{digits}g}"
             for reading in entry.assessment.readings
@@ -123,10 +123,10 @@ def not_as_printed(record: r.Record) -> Table:
     return Table("What does not come out as printed", ("number", "printed", *heads), rows)
 
 
-def significant(text: str) -> int:
+def significant_digits(text: str) -> int:
     """Count the significant digits of a printed number.
 
-    >>> significant("0.0550"), significant(">= 2680"), significant("7.6E9")
+    >>> significant_digits("0.0550"), significant_digits(">= 2680"), significant_digits("7.6E9")
     (3, 4, 2)
     """
     mantissa = re.split(r"[eE×\\]", text)[0]
@@ -239,7 +239,7 @@ def computed(piece: r.Evidence) -> str:
     if isinstance(piece.computed, bool):
         return "yes" if piece.computed else "no"
     safe = {">": ROUND_FLOOR, "<": ROUND_CEILING}.get(piece.asserted[:1], ROUND_HALF_EVEN)
-    digits = significant(piece.asserted) + 2
+    digits = significant_digits(piece.asserted) + 2
     return quantity(rounded(Fraction(piece.computed), digits, safe), piece.unit)
 
 
