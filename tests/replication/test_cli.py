@@ -146,7 +146,9 @@ def test_claims_are_listed() -> None:
     assert [line.split()[0] for line in listing] == [record["id"] for record in records]
 
 
-def test_audit_writes_its_files_and_a_summary_of_one_screen(tmp_path: Path) -> None:
+def test_audit_writes_its_files_and_a_summary_of_one_screen(
+    tmp_path: Path, record: Record, monkeypatch: pytest.MonkeyPatch
+) -> None:
     folder = tmp_path / "new" / "out"
     status, out, err = coldspray("audit", "--out", folder)
     assert (status, err) == (0, "")
@@ -162,6 +164,7 @@ def test_audit_writes_its_files_and_a_summary_of_one_screen(tmp_path: Path) -> N
     assert "audit.html" in out
     assert "\x1b" not in out
     assert coldspray("audit", "--schema")[1] == schema_text()
+    monkeypatch.setattr("replication.audit.audit.audit", lambda progress: record)
     status, out, _ = coldspray("audit", "--out", folder, "--exit-code", "--json")
     assert status == 1
     assert json.loads(out) == json.loads((folder / "audit.json").read_text("utf-8"))
