@@ -205,6 +205,9 @@ def _corrected(name: str, part: bytes) -> bytes:
     return part
 
 
+MARGINS = {"left": 0.25, "right": 0.25, "top": 0.45, "bottom": 0.33}
+"""Of a printed page, in inches."""
+
 _FREE = (
     "objects", "scenarios", "format_cells", "format_columns", "format_rows", "insert_columns",
     "insert_rows", "insert_hyperlinks", "delete_columns", "delete_rows", "select_locked_cells",
@@ -229,14 +232,12 @@ def _set_up(page: Any, sheet: SheetPlan, unlocked: Any) -> None:
     page.set_row(0, 18)  # the title
     page.set_portrait() if sheet.portrait else page.set_landscape()
     page.set_paper(1)  # US Letter
-    page.set_margins(left=0.3, right=0.3, top=0.6, bottom=0.5)
+    page.set_margins(**MARGINS)
     page.fit_to_pages(1, int(sheet.one_page))  # 0 pages high: as many as it takes
-    page.set_header('&L&"Arial"&10&F&R&"Arial"&10&A')
-    page.set_footer('&R&"Arial"&10Page &P of &N')
+    page.set_header('&L&"Arial"&8&F&R&"Arial"&8&A', {"margin": 0.22})
+    page.set_footer('&R&"Arial"&8Page &P of &N', {"margin": 0.2})
     if sheet.print_area:
         page.print_area(sheet.print_area)
-    if sheet.page_break:
-        page.set_h_pagebreaks([sheet.page_break])
     if sheet.filtered:
         page.autofilter(sheet.filtered)
     # Excel would mark printed numbers, which are texts, and formulas that differ by design from

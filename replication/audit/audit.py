@@ -79,7 +79,7 @@ class Audit(Results):
         computed = [(c.as_printed.reference, c.claim.unit) for c in reproduced if c.as_printed]
         values = {float(Fraction(digits) * to_si(unit)) for digits, unit in computed}
         standings = Counter(claim.assessment.standing for claim in reproduced)
-        remarks = sum(record.claim.kind in ("remark", "comparison") for record in claims)
+        remarks = sum(record.claim.kind == "remark" for record in claims)
         return r.Counts(
             entries=len(claims),
             numbers=len(claims) - remarks,

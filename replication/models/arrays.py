@@ -15,6 +15,7 @@ from itertools import repeat
 from typing import Any
 
 from reference.scheme import Scheme
+from reference.signals import postponed_signals
 from replication.models import crater, depth, estimates, impact, inverse, motion, sheet
 from replication.models.impact import (
     GREATEST,
@@ -514,13 +515,20 @@ def compiled(model: Model, alone: bool = False) -> Any:
     """Compile a model as a ufunc, or `motion.history` for single cases if it is to be `alone`.
 
     Alone it is a microsecond faster to call. `impact.are_within` takes one array in a row. The
-    compiled code is stored on disk, if there is a folder that can be written to.
+    compiled code is stored on disk, if there is a folder that can be written to. That takes some
+    seconds, once. A signal that would end the program acts when it is done: the compiler catches
+    some of the errors raised within it.
     """
+    with postponed_signals():
+        return _compiled(model, alone)
+
+
+def _compiled(model: Model, alone: bool) -> Any:
     import hashlib
     from pathlib import Path
     from types import FunctionType
 
-    import numba
+    numba = import_numba()
     from filelock import FileLock
     from numba import b1, f8, i8, types, void
 
@@ -552,12 +560,39 @@ def compiled(model: Model, alone: bool = False) -> Any:
     digest = hashlib.sha256(b"".join(source.read_bytes() for source in sources)).hexdigest()
     root.__qualname__ = f"{model.__name__}_{compiler.func.__name__}_{digest[:16]}"
     try:
-        folder = numba.njit(cache=True)(root).stats.cache_path
+        folder = Path(numba.njit(cache=True)(root).stats.cache_path)
         # Without a lock, two processes compiling at once could store files that do not match.
-        with FileLock(Path(folder) / "coldspray.lock"):
-            return compiler(cache=True)(root)
+        with FileLock(folder / "coldspray.lock"):
+            try:
+                return compiler(cache=True)(root)
+            except Exception:  # a damaged file of pickled code may raise any error
+                for file in folder.glob(f"*{root.__qualname__}-*.nb[ic]"):
+                    file.unlink()
+                return compiler(cache=True)(root)
     except (RuntimeError, OSError):
         return compiler(cache=False)(root)
+
+
+def import_numba() -> Any:
+    """Return the module numba. Raises ValueError if it cannot compile in this environment."""
+    import warnings
+    from pathlib import Path
+
+    try:
+        Path.cwd()
+    except FileNotFoundError as error:
+        problem = "Numba cannot compile in a current folder that was deleted: change to another"
+        raise ValueError(problem) from error
+    with postponed_signals(), warnings.catch_warnings():
+        warnings.filterwarnings("error", "Environment variable", RuntimeWarning)
+        try:
+            import numba
+        except RuntimeWarning as warning:  # it has several lines, the first says which variable
+            raise ValueError(f"{str(warning).splitlines()[0]} Correct or unset it") from warning
+        except ValueError as error:  # its message does not name the variable, NUMBA_NUM_THREADS
+            named = f"an environment variable NUMBA_...: {error} Correct or unset it"
+            raise ValueError(named) from error
+    return numba
 
 
 @cache
