@@ -8,10 +8,12 @@ The controls are harmless rewritings: the same number or equation, written in an
 that one of them changes is a false alarm.
 """
 
+import math
 import random
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from importlib import resources
+from statistics import NormalDist
 from typing import NamedTuple
 
 import msgspec
@@ -166,10 +168,23 @@ def interval(k: int, n: int) -> str:
     """
     if not n:
         return "-"
-    from scipy.stats import binomtest  # here: the audit and its page in a browser do without it
+    low, high = wilson(k, n)
+    return f"{100 * low:.1f} to {100 * high:.1f}"
 
-    ends = binomtest(k, n).proportion_ci(method="wilson")
-    return f"{100 * ends.low:.1f} to {100 * ends.high:.1f}"
+
+def wilson(k: int, n: int) -> tuple[float, float]:
+    """Return the ends of Wilson's 95 % interval of a share, k of n.
+
+    They are the shares p that lie 1.96 of their own standard deviations from k/n: the roots of
+    (p - k/n)^2 = z^2 p (1 - p) / n. (SciPy has it, too, but takes a second to import.)
+
+    >>> [f"{end:.3f}" for end in wilson(372, 408)]
+    ['0.880', '0.936']
+    """
+    z = NormalDist().inv_cdf(0.975)
+    middle, half = k + z * z / 2, z * math.sqrt(k * (n - k) / n + z * z / 4)
+    # No share is below 0 or above 1, where rounding could put an end.
+    return max(0.0, (middle - half) / (n + z * z)), min(1.0, (middle + half) / (n + z * z))
 
 
 def measured_rates() -> Power:

@@ -40,7 +40,7 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
     direct = {
         claim.id
         for claim in ledger.claims.values()
-        if name in (claim.id, claim.against, *claim.entries) or within in claim.uses
+        if name in (claim.id, *claim.entries) or within in claim.uses
     }
     for key, inferred in ledger.inferred.items():
         if direct & set(inferred.evidence):
@@ -152,7 +152,7 @@ class Explainer:
         else:
             claim = ledger.claims[name]
             equations = set(claim.uses)
-            beside = {key for key in (claim.against, claim.within) if key}
+            beside = {claim.within} if claim.within else set()
             compared = ledger.claims.keys() & COMPARED_WITH.get(name, ())
             suspects = {name, *claim.stated} | beside | equations | compared
             for unknown in self.judge.moved.intersection(claim.entries):

@@ -47,10 +47,11 @@ def _beside(claim: Claim) -> tuple[str, bool, bool]:
     return claim.unit, claim.cell is None, claim.within is None
 
 
-def significant(text: str) -> int:
+def digits_without_zeros(text: str) -> int:
     """Return how many digits of a number are left without the zeros at both its ends; 1 of a zero.
 
-    >>> [significant(text) for text in ("7500", "0.0580", "5.00E+02", "10^7", "~ 0.3", "0", "1/2")]
+    >>> texts = ("7500", "0.0580", "5.00E+02", "10^7", "~ 0.3", "0", "1/2")
+    >>> [digits_without_zeros(text) for text in texts]
     [2, 2, 1, 1, 1, 1, 2]
     """
     mantissa = re.sub(r"[Ee][-+]?\d+|(?<=10)\^.*", "", text)
@@ -93,7 +94,7 @@ def rank(
         unlike = bool(forms) and form(repair.text) not in forms
         apart = distance(repair.text, repair.original)
         if ledger.claims[repair.entry].computation is None:
-            digits = significant(repair.text) - significant(repair.original)
+            digits = digits_without_zeros(repair.text) - digits_without_zeros(repair.original)
     return (
         repair.reading, left, unlike, digits,
         failing not in (repair.entry, ledger.equation_of(repair.entry)),

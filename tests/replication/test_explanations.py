@@ -275,7 +275,7 @@ def test_every_number_and_every_equation_gets_misprints() -> None:
         ("autodyne-time", "41", set()),
         ("strength-multiple", "four", {"strength-multiple"}),
         ("copper-yield-bound", "80", {"copper-yield-bound"}),
-        ("observed-depth-ratio", "0.277", {"frank-zook-below-observed", "observed-depth-ratio"}),
+        ("observed-depth-ratio", "0.277", {"observed-depth-ratio"}),
         ("sphere-length-ratio", "1/2", {"sphere-length-ratio"}),
         (
             "initial-depth", "1",

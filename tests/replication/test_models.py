@@ -365,6 +365,15 @@ def test_the_closed_form_is_within_4_ulp_in_hard_cases_and_the_measure_sees_one_
         assert hard_cases.outcome(name)["ulps"] - ulps == pytest.approx(1, abs=0.51)
 
 
+def test_the_worst_random_case_is_found_by_fewer_digits() -> None:
+    """Which case is the worst is seen by a measure that is right to a millionth of an ulp."""
+    worst = hard_cases.worst_of(3000, seed=2)
+    errors = [
+        hard_cases._ulps(final_depth(**case), case) for case in hard_cases.random_cases(3000, 2)
+    ]
+    assert worst["ulps"] == max(errors, key=abs)
+
+
 def test_the_closed_form_is_within_4_ulp_in_a_hundred_thousand_cases() -> None:
     worst = hard_cases.worst_of(100_000, seed=1)
     assert worst["skipped"] == 0
