@@ -217,8 +217,11 @@ def _doubts(impact: Impact, sheet: Sheet | str, sought: float | None) -> Table:
     return {"warnings": warnings, "notes": notes}
 
 
-def _approaches(impact: Impact, depth: float, measured: float | None) -> list[Table]:
-    """Return X/R by each model, as observed and as measured, and how each is named."""
+def _approaches(impact: Impact, depth: float, measured: float | None) -> Table:
+    """Return X/R by each model, as measured and as observed, and how each is named.
+
+    `longest` is the X/R of the longest bar that is drawn: what was measured may be anything.
+    """
     armor, stainless, here = (
         {"resistance": resistance}
         for resistance in (
@@ -242,6 +245,7 @@ def _approaches(impact: Impact, depth: float, measured: float | None) -> list[Ta
     for target, own in targets[:2]:
         model = modelled("frank-zook-printed", impact, own).model
         ratios[f"Frank and Zook as Eq. 16 prints it: {target}"] = model.normalized_depth
+    longest = max(1.0, *ratios.values())
     if measured is not None:
         ratios["your measured depth"] = measured / impact.radius
     # Equally many digits in all rows, but for what the report prints.
@@ -251,7 +255,7 @@ def _approaches(impact: Impact, depth: float, measured: float | None) -> list[Ta
     assert observed is not None
     report = "the report’s experiment (section 2), whatever the inputs here"
     rows.append({"name": report, "normalized_depth": float(observed.value), "text": observed.text})
-    return rows
+    return {"rows": rows, "longest": longest}
 
 
 def _resistance(impact: Impact, text: str) -> Table:

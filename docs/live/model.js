@@ -138,8 +138,9 @@ export class Model {
       `${nano(answer.stop_time)} ns, for Rₜ = ${giga(answer.resistance)} GPa. ${bySheet}${doubtful}`;
     this.said.dataset.depth = depth;
     this.said.dataset.sheet = sheet.depth ?? "";
+    const printed = inputs.measured_depth.replace(/ um$/, " µm");
     const proven = inverse.range
-      ? ` Proven for all depths that are printed as ${inputs.measured_depth}: ${inverse.range}.`
+      ? ` Proven for all depths that are printed as ${printed}: ${inverse.range}.`
       : "";
     document.getElementById("inverse").textContent = inverse.refused
       ? `No resistance: ${inverse.refused}.`
@@ -177,12 +178,11 @@ export class Model {
     for (const cells of rows) body.append(tableRow(cells));
   }
 
-  showApproaches(approaches) {
-    const most = Math.max(1, ...approaches.map((a) => a.normalized_depth));
+  showApproaches({ rows, longest }) {
     document.getElementById("approaches-live").replaceChildren(
-      ...approaches.map(({ name, normalized_depth: value, text }) => {
+      ...rows.map(({ name, normalized_depth: value, text }) => {
         const bar = document.createElement("meter");
-        bar.max = most;
+        bar.max = longest;
         bar.value = value;
         bar.setAttribute("aria-label", `X/R, ${name}`);
         return tableRow([name, text, bar]);
@@ -224,10 +224,10 @@ export class Model {
       svg.append(drawn("circle", { class: "row", cx: across(t), cy: down(x), r: 3.2 }));
     }
     this.figure.replaceChildren(svg);
-    const every = sheet.every === 1 ? "each row" : `one row in ${sheet.every} and the last`;
+    const rows = sheet.every === 1 ? "each row" : `one row in ${sheet.every} and the last`;
     const points = sheet.refused
       ? "The sheet was not run."
-      : `Points: the sheet, ${every}, each in the middle of its step, where its depth belongs.`;
+      : `Points: ${rows} of the sheet, in the middle of the step, where a row’s depth belongs.`;
     document.getElementById("figure-words").textContent =
       `Depth against time, as in Figure 3 of the report. Line: the exact motion. ${points}`;
   }
