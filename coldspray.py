@@ -37,6 +37,6 @@ def __dir__() -> list[str]:
 if __name__ == "__main__":
     import sys
 
-    from replication.cli import main
+    from replication.__main__ import program
 
-    sys.exit(main())
+    sys.exit(program())

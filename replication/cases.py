@@ -17,7 +17,15 @@ from replication.models.alternatives import (
     Rigid,
 )
 from replication.models.impact import Impact, InputError
-from replication.reading import advice, place, quoted, read_number, read_numbers, tables_of
+from replication.reading import (
+    advice,
+    place,
+    quoted,
+    read_number,
+    read_numbers,
+    tables_of,
+    within,
+)
 
 INPUTS = {
     "velocity": "m/s",
@@ -56,8 +64,13 @@ greater than zero
         raise ValueError(f"there is no case {quoted(name)}: {advice(name, CASES)}")
     impact = CASES[name]
     if file is not None:
-        with tables_of(file, ["impact"]) as (tables, _):
-            impact = changed(impact, read_numbers(tables["impact"], INPUTS))
+        with tables_of(file, ["impact"]) as (tables, _), within("impact"):
+            numbers = read_numbers(tables["impact"], INPUTS)
+            try:
+                impact = changed(impact, numbers)
+            except InputError as error:
+                with within(*[key for key in [_input_of(error)] if key in numbers]):
+                    raise
     values = {}
     for key, text in given.items():
         with place(option(key)):
@@ -68,8 +81,13 @@ greater than zero
     try:
         return changed(impact, values)
     except InputError as error:
-        key = "resistance" if error.name == "target resistance" else error.name
+        key = _input_of(error)
         raise InputError(option(key) if key in given else error.name, error.problem) from error
+
+
+def _input_of(error: InputError) -> str:
+    """Return the input that an error of `Impact` is about, or what it computes from inputs."""
+    return "resistance" if error.name == "target resistance" else error.name
 
 
 def option(name: str) -> str:

@@ -63,6 +63,14 @@ def advice(text: str, known: Iterable[str], otherwise: str | None = None) -> str
     return f"choose one of {', '.join(names)}" if otherwise is None else otherwise
 
 
+class KeyedError(ValueError):
+    """An error in a value of a TOML file, with the keys that lead to it: the table, its key, ..."""
+
+    def __init__(self, message: str, keys: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.keys = keys
+
+
 @contextmanager
 def place(name: str) -> Iterator[None]:
     """Prefix the message of any ValueError raised in the block with the name of the place.
@@ -74,8 +82,20 @@ def place(name: str) -> Iterator[None]:
     """
     try:
         yield
+    except KeyedError as error:
+        raise KeyedError(f"{name}: {error}", error.keys) from error
     except ValueError as error:
         raise ValueError(f"{name}: {error}") from error
+
+
+@contextmanager
+def within(*keys: str) -> Iterator[None]:
+    """Let any ValueError raised in the block know that it is about the value of these keys."""
+    try:
+        yield
+    except ValueError as error:
+        inner = error.keys if isinstance(error, KeyedError) else ()
+        raise KeyedError(str(error), (*keys, *inner)) from error
 
 
 _LARGEST_FILE = 2**20
@@ -99,6 +119,50 @@ def _parsed(content: bytes) -> dict[str, Any]:
         raise ValueError(f"holds a whole number of more than {digits} digits") from error
 
 
+def line_of(text: str, keys: Sequence[str]) -> int | None:
+    r"""Return the line of a TOML text, counted from 1, on which the statement of these keys begins.
+
+    No library that the project has says where a value stands, so the text is read statement by
+    statement, each under the head of its table, until one has the keys. None if none has them, or
+    if a statement goes on for so long that this would take too much time.
+
+    >>> line_of("[impact]\n# in um\nradius = 11\nbeta = 3", ["impact", "beta"])
+    4
+    """
+    if not keys:
+        return None
+    head, lines = "", text.replace("\r\n", "\n").split("\n")
+    first, tries = 0, 0
+    for last, line in enumerate(lines):
+        if last == first and (not line.strip() or line.lstrip().startswith("#")):
+            first += 1
+            continue
+        if last > first and not _CLOSING.search(line):
+            continue  # within a statement of several lines
+        statement = "\n".join(lines[first : last + 1])
+        try:
+            table: Any = tomllib.loads(f"{head}\n{statement}")
+        except ValueError:
+            tries += 1
+            if tries > _MOST_TRIES:
+                return None
+            continue
+        for key in keys:
+            table = table.get(key) if isinstance(table, dict) else None
+        if table is not None:
+            return first + 1
+        if statement.lstrip().startswith("["):
+            head = statement
+        first, tries = last + 1, 0
+    return None
+
+
+_CLOSING = re.compile(r"""[]}]|\"{3}|'{3}""")
+"""What a line has with which a statement of several lines ends."""
+
+_MOST_TRIES = 100
+
+
 def content_of(path: Path, most: int) -> bytes:
     """Return the bytes of a file; if there are more than `most`, one more than that.
 
@@ -120,19 +184,28 @@ def tables_of(
 ) -> Iterator[tuple[dict[str, dict[str, Any]], bytes]]:
     """Read the tables of a TOML file, and its bytes; a ValueError in the block names the file.
 
-    The file must have every table of `wanted`, and may have those of `allowed`. Raises OSError, or
-    ValueError if the file is too large, is not TOML, or has other tables.
+    It names the line, too, if the error says `within` which keys it is. The file must have every
+    table of `wanted`, and may have those of `allowed`. Raises OSError, or ValueError if the file is
+    too large, is not TOML, or has other tables.
     """
     content = content_of(path, _LARGEST_FILE)
     if len(content) > _LARGEST_FILE:
         raise ValueError(f"{path} is larger than {_LARGEST_FILE:,} bytes")
-    with place(str(path)):
+    try:
         document = _parsed(content)
         for name, table in document.items():
             if not isinstance(table, dict):
-                raise ValueError(f"{quoted(name)} is not a table: begin with a line [{wanted[0]}]")
+                problem = f"{quoted(name)} is not a table: begin with a line [{wanted[0]}]"
+                raise KeyedError(problem, (name,))
         check_keys(document, wanted, allowed)
         yield document, content
+    except KeyedError as error:
+        text, keys = content.decode("utf-8-sig"), error.keys
+        line = line_of(text, keys) or line_of(text, keys[:-1])
+        where = str(path) if line is None else f"{path}, line {line}"
+        raise ValueError(f"{where}: {error}") from error
+    except ValueError as error:
+        raise ValueError(f"{path}: {error}") from error
 
 
 def check_keys(
@@ -142,7 +215,7 @@ def check_keys(
     known = [*wanted, *allowed]
     for key in table:
         if key not in known:
-            raise ValueError(f"there is no {quoted(key)} here: {advice(key, known)}")
+            raise KeyedError(f"there is no {quoted(key)} here: {advice(key, known)}", (key,))
     for key in wanted:
         if key not in table:
             raise ValueError(f"{quoted(key)} is missing")
@@ -191,16 +264,19 @@ def read_number(text: str, unit: str) -> float:
         raise ValueError(f"{quoted(text)} is not a finite number that a double can hold") from error
 
 
-def read_printed(text: str, unit: str) -> Interval:
+def read_printed(text: str, unit: str) -> list[Interval]:
     """Read a number, with or without a unit, as printed text: all values (SI) that print like it.
 
-    The last digit is taken as significant, a zero, too. `unit` and errors are as for `read_number`.
+    The first interval takes the last digit as significant, a zero, too. An integer that ends in
+    zeros may have fewer significant digits: each further interval takes one less of them. `unit`
+    and errors are as for `read_number`.
 
-    >>> print(read_printed("3.3 um", "m"), read_printed("700 MPa", "Pa"))
-    [3.25E-6, 3.35E-6) [6.995E+8, 7.005E+8)
+    >>> print(*read_printed("3.3 um", "m"), "and", *read_printed("700 MPa", "Pa"))
+    [3.25E-6, 3.35E-6) and [6.995E+8, 7.005E+8) [6.95E+8, 7.05E+8) [6.5E+8, 7.5E+8)
     """
     number, given_unit = _number_and_unit(text, unit)
-    return parse(number).interval().scaled(to_si(given_unit))
+    printed, factor = parse(number), to_si(given_unit)
+    return [printed.interval(quantum=quantum).scaled(factor) for quantum in printed.quanta]
 
 
 def read_numbers(table: Mapping[str, Any], units: Mapping[str, str]) -> dict[str, float]:
@@ -214,6 +290,6 @@ def read_numbers(table: Mapping[str, Any], units: Mapping[str, str]) -> dict[str
     check_keys(table, allowed=units)
     numbers = {}
     for key, value in table.items():
-        with place(key):
+        with within(key), place(key):
             numbers[key] = read_number(str(value), units[key])
     return numbers

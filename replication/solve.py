@@ -41,8 +41,10 @@ class Solution:
 
     `value` is None if no value gives the depth, and `reason` then says why. `condition` is the
     relative change of the value for one of the depth. `interval`, of printed inputs, contains all
-    values for inputs that print like these; None if there is none. `inputs` are those that the
-    answer rests on, without the depth.
+    values for inputs that print like these, all their digits taken as significant; None if there is
+    none. `fewest_digits` is the same with as few significant digits as the texts allow ("700" has
+    one to three); None if they allow no fewer. `inputs` are those that the answer rests on, without
+    the depth.
     """
 
     quantity: str
@@ -52,6 +54,7 @@ class Solution:
     value: float | None = None
     condition: float | None = None
     interval: tuple[float, float] | None = None
+    fewest_digits: tuple[float, float] | None = None
     reason: str = ""
 
 
@@ -108,39 +111,50 @@ def solve_printed(impact: Impact, quantity: str, texts: Mapping[str, str]) -> So
     `texts` has the "depth" or the "normalized_depth", and may have inputs that replace the case's.
     Each stands for all values that print like it; the case's other inputs are exact. The interval
     contains the value for each choice of them. If it begins at zero, some choices have no value.
-    Raises ValueError as `solve` and `read_printed` do.
+    Zeros that end an integer are taken as significant, and in `fewest_digits` as not. Raises
+    ValueError as `solve` and `read_printed` do.
 
     >>> from replication.cases import BETA_5
     >>> answer = solve_printed(BETA_5, "resistance", {"depth": "3.3 um"})
     >>> [f"{x / 1e9:.1f}" for x in (answer.value, *answer.interval)]
     ['17.8', '17.3', '18.4']
     """
-    from reference.inverse import enclosed  # Arb takes a while to load
-
     given = [name for name in DEPTHS if name in texts]
     if len(given) != 1:
         raise ValueError("give either the depth or the normalized depth")
     if given == ["normalized_depth"] and quantity == "radius":
         raise ValueError("the normalized depth does not depend on the radius: give the depth")
     units = {**INPUTS, **DEPTHS}
-    numbers, box = {}, {}
+    numbers, readings = {}, {}
     for name, text in texts.items():
         with place(name):
             numbers[name] = read_number(text, units[name])
-            box[name] = read_printed(text, units[name]).ends
-            if box[name][0] <= 0:
+            readings[name] = [interval.ends for interval in read_printed(text, units[name])]
+            if min(low for low, _ in readings[name]) <= 0:
                 raise ValueError(f"{quoted(text)} may be the text of zero: give more digits")
     impact = changed(impact, {name: x for name, x in numbers.items() if name not in DEPTHS})
     inputs = inputs_but(impact, quantity)
     depth = numbers["depth"] if "depth" in numbers else numbers["normalized_depth"] * impact.radius
     answer = solve(impact, quantity, depth)
     exact = {name: (Fraction(x), Fraction(x)) for name, x in inputs.items()}
-    box = exact | {name: ends for name, ends in box.items() if name in {*inputs, *DEPTHS}}
-    if "normalized_depth" in box:  # the depth of a particle of radius 1
-        box |= {"depth": box.pop("normalized_depth"), "radius": (Fraction(1), Fraction(1))}
-    ends = enclosed(quantity, box)
+    used = {name: ends for name, ends in readings.items() if name in {*inputs, *DEPTHS}}
+    every = _enclosed(quantity, exact | {name: ends[0] for name, ends in used.items()})
+    fewest = None
+    if any(len(ends) > 1 for ends in used.values()):
+        fewest = _enclosed(quantity, exact | {name: ends[-1] for name, ends in used.items()})
+    return replace(answer, interval=every, fewest_digits=fewest)
+
+
+def _enclosed(
+    quantity: str, box: Mapping[str, tuple[Fraction, Fraction]]
+) -> tuple[float, float] | None:
+    """Return a proven range of the quantity over a box of the others; None if it has no value."""
+    from reference.inverse import enclosed  # Arb takes a while to load
+
+    inputs = dict(box)
+    if "normalized_depth" in inputs:  # the depth of a particle of radius 1
+        inputs |= {"depth": inputs.pop("normalized_depth"), "radius": (Fraction(1), Fraction(1))}
+    ends = enclosed(quantity, inputs)
     if ends is None:
-        return answer
-    low = math.nextafter(float(ends[0]), 0.0)
-    high = math.nextafter(float(ends[1]), math.inf)
-    return replace(answer, interval=(low, high))
+        return None
+    return math.nextafter(float(ends[0]), 0.0), math.nextafter(float(ends[1]), math.inf)

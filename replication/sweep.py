@@ -7,10 +7,11 @@ the `bounds` of their source, even after rounding, so that invalid inputs are fo
 import hashlib
 import itertools
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from statistics import NormalDist
 from typing import Any
@@ -23,7 +24,17 @@ from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
 from replication.models.estimates import particle_velocity
 from replication.models.impact import Impact, InputError, check_inputs, particle_mass
-from replication.reading import check_keys, place, quoted, read_number, read_numbers, tables_of
+from replication.reading import (
+    KeyedError,
+    advice,
+    check_keys,
+    place,
+    quoted,
+    read_number,
+    read_numbers,
+    tables_of,
+    within,
+)
 from spreadsheets.safely import check_target, draft_of
 
 Floats = npt.NDArray[np.float64]
@@ -109,7 +120,9 @@ class Plan:
             except ValueError as error:
                 ends = [f"{name} {case[name]!r}" for name in bounds if len(bounds[name]) > 1]
                 where = f" (with {', '.join(ends)})" if ends else ""
-                raise ValueError(f"{error}{where}") from error
+                name = error.name if isinstance(error, InputError) else ""
+                keys = ("inputs", name) if name in self.sources else ()
+                raise KeyedError(f"{error}{where}", keys) from error
 
     @property
     def grid(self) -> dict[str, int]:
@@ -202,26 +215,34 @@ Table = dict[str, Any]
 def read_plan(path: Path) -> Plan:
     """Read a plan from a TOML file.
 
-    Raises OSError, or a ValueError that names the file, the table, the key and what is allowed.
+    Raises OSError, or a ValueError that names the file, the line, the table, the key and what is
+    allowed.
     """
     with tables_of(path, ["inputs"], ["sweep"]) as (tables, content):
         settings, table = tables.get("sweep", {}), tables["inputs"]
         ways = [value for value in table.values() if isinstance(value, dict)]
-        with place("[sweep]"):
+        with within("sweep"), place("[sweep]"):
             check_keys(settings, [], ["case", "samples", "seed", "scheme", "outputs"])
-            name, asked = settings.get("case", "beta-5"), settings.get("outputs", [])
-            if not isinstance(name, str) or name not in CASES:
-                raise ValueError(f"there is no case {name!r}: choose one of {', '.join(CASES)}")
+            name = _named(settings, "case", "beta-5", CASES)
+            scheme = Scheme(_named(settings, "scheme", Scheme.PUBLISHED, Scheme))
+            asked = settings.get("outputs", [])
             if not isinstance(asked, list) or any(extra not in [*EXTRAS] for extra in asked):
-                known = ", ".join(EXTRAS)
-                raise ValueError(f"outputs must be a list of {known}; the depths always come")
-            scheme = Scheme(settings.get("scheme", Scheme.PUBLISHED))
+                problem = f"outputs must be a list of {', '.join(EXTRAS)}; the depths always come"
+                raise KeyedError(problem, ("outputs",))
             samples, seed = _sampling(settings, any("distribution" in way for way in ways))
-        with place("[inputs]"):
+        with within("inputs"), place("[inputs]"):
             sources, by_mass = _sources(table, CASES[name])
         extras = tuple(name for name in EXTRAS if name in asked)
         digest = hashlib.sha256(content).hexdigest()
         return Plan(sources, by_mass, samples, seed, scheme, extras, digest)
+
+
+def _named(table: Table, key: str, default: str, known: Iterable[str]) -> str:
+    """Return the name that a key has, which must be a known one."""
+    name, names = table.get(key, default), list(map(str, known))
+    if name not in names:
+        raise KeyedError(f"there is no {key} {quoted(name)}: {advice(str(name), names)}", (key,))
+    return str(name)
 
 
 def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
@@ -229,7 +250,7 @@ def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
     if not drawn:
         for key in ("samples", "seed"):
             if key in settings:
-                raise ValueError(f"{key} is for distributions, and no input has one")
+                raise KeyedError(f"{key} is for distributions, and no input has one", (key,))
         return 1, 0
     if "samples" not in settings:
         raise ValueError("samples is missing: how many cases to draw")
@@ -244,14 +265,15 @@ def _sources(table: Table, case: Impact) -> tuple[dict[str, InputValues], dict[s
     rest = {name: getattr(case, name) for name in INPUTS if name not in (*table, *replaced)}
     sources, by_mass = {}, None
     for name, value in (rest | table).items():
-        with place(name):
+        with within(name), place(name):
             if isinstance(value, dict) and "average_mass" in value:
                 by_mass = _by_mass(name, value)
             else:
                 sources[name] = read_source(name, value)
     for name, source in sources.items():
         for number in source.bounds:
-            check_inputs({name: number})
+            with within(name):
+                check_inputs({name: number})
     return sources, by_mass
 
 
@@ -278,9 +300,7 @@ def read_source(name: str, value: Any) -> InputValues:
 def _spaced(table: Table, unit: str) -> Floats:
     """Return the values of a range."""
     check_keys(table, ["from", "to", "points"], ["scale"])
-    scale = table.get("scale", "linear")
-    if scale not in ("linear", "log"):
-        raise ValueError(f"scale is {scale!r}: choose linear or log")
+    scale = _named(table, "scale", "linear", ("linear", "log"))
     ends = {key: table[key] for key in ("from", "to")}
     first, last = read_numbers(ends, dict.fromkeys(ends, unit)).values()
     count = _whole_number("points", table["points"], 2, MAX_POINTS)
@@ -296,9 +316,7 @@ def _spaced(table: Table, unit: str) -> Floats:
 
 def _drawn(table: Table, unit: str) -> InputValues:
     """Read a distribution."""
-    kind, kinds = table["distribution"], ("normal", "lognormal", "uniform", "loguniform")
-    if kind not in kinds:
-        raise ValueError(f"there is no {kind!r}: choose one of {', '.join(kinds)}")
+    kind = _named(table, "distribution", "", ("normal", "lognormal", "uniform", "loguniform"))
     log, shape, ends = kind.startswith("log"), ["mean", "deviation"], ["lower", "upper"]
     wanted, allowed = (shape, ends) if kind.endswith("normal") else (ends, [])
     check_keys(table, ["distribution", *wanted], allowed)
@@ -306,7 +324,7 @@ def _drawn(table: Table, unit: str) -> InputValues:
     numbers = read_numbers(given, dict.fromkeys(given, unit))
     for key in ("deviation", *(wanted if log else [])):
         if numbers.get(key, 1.0) <= 0:
-            raise ValueError(f"{key} must be greater than zero")
+            raise KeyedError(f"{key} must be greater than zero", (key,))
     lower, upper = numbers.get("lower", 0.0 if log else -math.inf), numbers.get("upper", math.inf)
     if lower >= upper:
         raise ValueError("lower must be less than upper")
@@ -365,9 +383,10 @@ def _by_mass(name: str, table: Table) -> dict[str, float]:
 
 def _whole_number(key: str, value: Any, least: int, greatest: int) -> int:
     if type(value) is not int or not least <= value <= greatest:
-        raise ValueError(
+        raise KeyedError(
             f"{key} is {quoted(value)}: it must be a whole number from {least} to {greatest:,}, "
-            "without point or exponent"
+            "without point or exponent",
+            (key,),
         )
     return value
 
@@ -434,7 +453,12 @@ def sweep_provenance(plan: Plan) -> dict[str, str]:
 
 
 def check_output(path: Path) -> None:
-    """Raise ValueError for another suffix, and OSError as `check_target` does."""
+    """Raise ValueError for another suffix or if PyArrow is missing; OSError as `check_target`."""
     if path.suffix.lower() not in (".csv", ".parquet"):
         raise ValueError(f"{path}: the file's name must end in .csv or .parquet")
+    if find_spec("pyarrow") is None:
+        raise ValueError(
+            "PyArrow, which writes the rows, is not installed: "
+            "python -m pip install 'coldspray[sweep]'"
+        )
     check_target(path)

@@ -26,6 +26,7 @@ from tqdm import tqdm
 from reference.arithmetic import Number
 from reference.motion import Trajectory
 from reference.scheme import Scheme
+from reference.signals import postponed_signals
 from replication.bench.peers import SOLVERS, Function, bare_depth, depth_loop, sheet_loop
 from replication.cases import BETA_5, changed, inputs_of
 from replication.error.hard_cases import HARD_CASES
@@ -33,6 +34,7 @@ from replication.error.ladder import exact_motion
 from replication.models import arrays, motion
 from replication.models.impact import Impact
 from replication.models.sheet import run
+from replication.reading import advice, quoted
 
 Measure = Literal["depth", "history"]
 MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}
@@ -102,7 +104,7 @@ def build_case(name: str) -> Case:
     ('26.079 ns', '6.4e-04')
     """
     if name not in CASES:
-        raise ValueError(f"there is no case {name!r} to time: choose one of {', '.join(CASES)}")
+        raise ValueError(f"there is no case {quoted(name)} to time: {advice(name, CASES)}")
     impact = changed(BETA_5, HARD_CASES[CASES[name]])
     motion, times, depths = exact_motion(impact), list[float](), list[Number]()
     for k in range(POINTS):
@@ -218,6 +220,9 @@ Point = dict[str, Any]
 
 DIGITS = range(1, 16)
 
+SOLVERS_DIGITS = (4, 6, 8, 10, 12)
+"""The digits for which the loosest setting of each solver is sought."""
+
 
 def bench(
     names: Sequence[str], repeat: int = 7, limit: float = 5.0, quiet: bool | None = True
@@ -236,11 +241,12 @@ def bench(
     with tempfile.TemporaryDirectory() as empty:
         numba.config.CACHE_DIR = empty  # so that everything is compiled again
         arrays.compiled.cache_clear()
-        numba.vectorize(["f8(f8)"])(error_for)  # starts the compiler, which is no method's cost
+        with postponed_signals():
+            numba.vectorize(["f8(f8)"])(error_for)  # starts the compiler, which is no method's cost
         for case in cases:
             trials = [measured_points(case, task, repeat, limit) for task in tasks(case)]
             with tqdm(trials * (1 + repeat), case.name, leave=False, disable=quiet) as turns:
-                points = [next(turn, {}) for turn in turns]
+                points = [_next(turn) for turn in turns]
             del points[len(trials) :]  # later turns have filled in those of the first
             mark_front(points)
             asked = product((False, True), MEASURES, DIGITS)
@@ -252,7 +258,21 @@ def bench(
                 "points": points,
                 "fastest": [fastest(points, *question) for question in asked],
             })  # fmt: skip
-    return {"machine": _machine(), "repeat": repeat, "limit": limit, "cases": measured}
+    runs = [case["points"] for case in measured]
+    sought = product(SOLVERS, MEASURES, SOLVERS_DIGITS)
+    return {
+        "machine": _machine(),
+        "repeat": repeat,
+        "limit": limit,
+        "cases": measured,
+        "settings": [loosest(runs, *question) for question in sought],
+    }
+
+
+def _next(turn: Iterator[Point]) -> Point:
+    """Let a trial take its next turn; a signal waits, as compilers and solvers would lose it."""
+    with postponed_signals():
+        return next(turn, {})
 
 
 def measured_points(case: Case, task: Task, repeat: int, limit: float) -> Iterator[Point]:
@@ -326,6 +346,32 @@ def fastest(points: Sequence[Point], many: bool, measure: Measure, digits: int) 
     method = first and f"{first['method']}, {first['setting']}"
     asked = {"measure": measure, "many": many, "digits": digits}
     return asked | {"method": method, "best": first and first["best"]}
+
+
+def loosest(
+    runs: Sequence[Sequence[Point]], method: str, measure: Measure, digits: int
+) -> dict[str, Any]:
+    """Return the loosest setting of a solver that gives these digits in all cases, and its time.
+
+    `runs` has the points of each case, those of a solver from its loosest setting to its tightest;
+    `best` [s] is that of the slowest case. Both are None if no setting does. A solver does not give
+    the digits of its tolerance: with 1e-8 one may be off by 1e-7 and another by 1e-9.
+    """
+    of_solver = [
+        [p for p in run if (p["method"], p["measure"]) == (method, measure)] for run in runs
+    ]
+    able = (
+        points for points in zip(*of_solver, strict=True)
+        if max(map(met, points)) <= error_for(digits)
+    )  # fmt: skip
+    first = next(able, None)
+    return {
+        "method": method,
+        "measure": measure,
+        "digits": digits,
+        "setting": first and first[0]["setting"],
+        "best": first and max(point["best"] for point in first),
+    }
 
 
 def _machine() -> dict[str, Any]:

@@ -9,6 +9,7 @@ from openpyxl.utils.cell import get_column_letter
 
 from replication.check.difference import Difference
 from replication.reading import printable
+from replication.text import prose
 from spreadsheets.engines import address
 from spreadsheets.foreign import Position
 
@@ -30,12 +31,31 @@ def safe(text: object, limit: int = 90) -> str:
     return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
 
 
+NO_LIMIT = 10_000
+"""The width where nobody reads on a terminal: no line is broken for it."""
+
+
+def fitted(lines: Iterable[str], width: int) -> str:
+    """Lines of text as one, with those that are too long for a terminal broken between words.
+
+    >>> print(fitted(["  holds 499, should hold 495.1"], 20))
+      holds 499, should
+        hold 495.1
+    """
+    shown: list[str] = []
+    for line in (part for text in lines for part in text.split("\n")):
+        indent = " " * (len(line) - len(line.lstrip()))
+        long = len(line) > width
+        shown.append(prose(line.lstrip(), width, indent, f"{indent}  ") if long else line)
+    return "\n".join(shown)
+
+
 def wrapped(line: str, indent: str) -> str:
     """A line of text for a terminal, broken and indented."""
     return fill(line, 100, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)
 
 
-def _place(difference: Record) -> str:
+def _shown_place(difference: Record) -> str:
     """The cell of a difference, or in a text file its line and column."""
     if "where" in difference:
         return safe(difference["where"])
@@ -48,7 +68,7 @@ def whereabouts(difference: Record) -> str:
     if difference["count"] > 1:
         in_text = "where" in difference
         more = f" and {difference['count'] - 1} more" if in_text else f" ({difference['cells']})"
-    return _place(difference) + more
+    return _shown_place(difference) + more
 
 
 # ---- for a browser
@@ -124,7 +144,7 @@ def junit(record: Record, kinds: Sequence[str], no_fault: Collection[str] = ()) 
     for kind in kinds:
         case = ET.SubElement(suite, "testcase", classname="coldspray", name=kind)
         lines = [
-            f"{_place(d)}: {safe(d['explanation'], 300)}"
+            f"{_shown_place(d)}: {safe(d['explanation'], 300)}"
             for d in record["differences"]
             if d["kind"] == kind
         ]

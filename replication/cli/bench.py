@@ -34,6 +34,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Measure, write the files if asked to, and print the table."""
+    from replication.models.arrays import import_numba
+
+    import_numba()  # before other modules do: it says what is wrong with its settings
     from replication.bench.measure import CASES, bench
     from replication.bench.show import texts, write_bench
     from spreadsheets.safely import check_folder

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.cli.options import add_json, add_quiet, path
-from replication.cli.output import put
+from replication.cli.output import put, width
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
@@ -42,16 +42,18 @@ def check_files(options: argparse.Namespace, *workbooks: Path) -> None:
 def put_differences(
     options: argparse.Namespace,
     record: dict[str, Any],
-    text: Callable[[Mapping[str, Any]], str],
+    text: Callable[[Mapping[str, Any], int], str],
     page: Callable[[], str],
     junit: Callable[[Mapping[str, Any]], str],
 ) -> int:
     """Write the files asked for, print the record as JSON or text, and return the exit status."""
-    from spreadsheets.safely import write_bytes
+    from spreadsheets.safely import write_files
 
+    written = list[tuple[Path, bytes]]()
     if options.html is not None:
-        write_bytes(options.html, page().encode())
+        written.append((options.html, page().encode()))
     if options.junit is not None:
-        write_bytes(options.junit, junit(record).encode())
-    put(options, record, lambda: text(record), quietly=True)
+        written.append((options.junit, junit(record).encode()))
+    write_files(written)
+    put(options, record, lambda: text(record, width(piped=10_000)), quietly=True)
     return 0 if record["clean"] else 1

@@ -26,6 +26,8 @@ from replication.text import aligned, number, numbers
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+    from replication.plots import Points
+
 HELP = "fit the resistance, or beta, to measured velocities and depths"
 EXAMPLE = "coldspray fit measured.csv --quantity beta --flow-stress '700 MPa'"
 
@@ -45,7 +47,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     add_csv_and_json(parser, "print the measurements, with fitted depths and residuals, as CSV")
     add_quiet(parser)
-    add_plot(parser)
+    add_plot(parser, data="velocity and depth, which are not fitted")
     add_inputs(parser, with_sheet=False, without=["velocity"])
 
 
@@ -57,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
     refuse_sought(quantity, given, "fitted")
     case, warnings = case_of(options)
     check_factor(case, quantity)
-    checked(options, lambda _: None, options.file, options.case_file)
+    points = checked(options, _further_points, options.file, options.case_file)
     measurements = read_measurements(options.file, case)
     with place(str(options.file)):
         fitted = fit(case, measurements, quantity)
@@ -66,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
     if other := OTHER_FACTOR.get(quantity):
         inputs[other] = fitted.resistance / fitted.value
     rows = _fitted_rows(fitted, measurements)
-    write_picture(options, lambda: _fit_figure(options.file, fitted, measurements, inputs))
+    write_picture(options, lambda: _fit_figure(options.file, fitted, measurements, inputs, points))
     record = {
         "inputs": inputs,
         "quantity": quantity,
@@ -82,12 +84,22 @@ def run(options: argparse.Namespace) -> int:
     return put(options, record, lambda: _fit_text(fitted, inputs, rows), rows, warnings)
 
 
+def _further_points(file: Path) -> "Points":
+    from replication.plots import DEPTH, INPUT, read_points
+
+    return read_points(file, INPUT["velocity"], (DEPTH,))
+
+
 def _fit_figure(
-    file: Path, fitted: Fit, measurements: Sequence[Measurement], inputs: Mapping[str, float]
+    file: Path,
+    fitted: Fit,
+    measurements: Sequence[Measurement],
+    inputs: Mapping[str, float],
+    points: "Points | None",
 ) -> "Figure":
     from replication.plots import plot_fit
 
-    return plot_fit(measurements, fitted, inputs_in_words(inputs), file.name)
+    return plot_fit(measurements, fitted, inputs_in_words(inputs), file.name, points)
 
 
 def _common_inputs(measurements: Sequence[Measurement]) -> dict[str, float]:

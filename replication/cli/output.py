@@ -8,7 +8,7 @@ import re
 import shutil
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import Any
+from typing import Any, TextIO
 
 from replication.reading import one_line
 from replication.text import json_text, prose, rows_csv
@@ -39,8 +39,27 @@ def put(
         for note in () if options.quiet else notes:
             print(filled(f"note: {note}", hanging="  "))
     for warning in () if options.quiet else warnings:
-        print(one_line(f"coldspray {options.command}: warning: {warning}"), file=sys.stderr)
+        complain(f"coldspray {options.command}", f"warning: {warning}")
     return 0
+
+
+def complain(program: str, message: str) -> None:
+    """Print a message as one line on stderr.
+
+    If that fails, as on a full disk, the exit status is still that of the work.
+    """
+    if sys.stderr is not None:
+        try:
+            print(f"{program}: {one_line(message)}", file=sys.stderr, flush=True)
+        except OSError:
+            discard(sys.stderr)
+
+
+def discard(stream: TextIO | None) -> None:
+    """Redirect a stream to nowhere: otherwise Python retries the failed write when it exits."""
+    # A stream that a caller has put in place of Python's own is left alone.
+    if stream in (sys.__stdout__, sys.__stderr__) and stream is not None:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
 
 
 def put_json(text: str) -> None:

@@ -65,6 +65,10 @@ class _Flag(_Store):
         super().__init__(option_strings, dest, nargs=0, const=True, default=False, **settings)
 
 
+_OWN_OPTIONS = ("-h", "--help", "--version")
+"""The options that stand without a command."""
+
+
 class _Version(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
         from importlib.metadata import version
@@ -92,7 +96,9 @@ def parse_command_line(
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     choice = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, command in commands.items():
+    first = arguments[0] if arguments else ""
+    for name in [first] if first in commands else commands:  # loading all of them takes longer
+        command = commands[name]
         about, example = f"{command.HELP[0].upper()}{command.HELP[1:]}.", command.EXAMPLE
         own = choice.add_parser(
             name, help=command.HELP, description=about, epilog=f"example: {example}"
@@ -105,9 +111,10 @@ def parse_command_line(
     for argument in arguments:
         if _DASHES.fullmatch(argument):
             parser.error(f"{quoted(argument)}: two dashes are not a value")
-    first = arguments[0]
     if first not in commands and (first == "--" or not first.startswith("-")):
         parser.error(f"there is no command {quoted(first)}: {advice(first, commands)}")
+    if first.startswith("-") and not any(own.startswith(first) for own in _OWN_OPTIONS):
+        parser.error(f"{quoted(first)} comes before a command: begin with that, such as depth")
     options, unknown = parser.parse_known_args(arguments)
     if unknown:  # refer to the help of the command, not of `coldspray`
         own = choice.choices[options.command]

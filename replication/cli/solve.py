@@ -41,7 +41,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rounded", action="store_true",
         help="take the depth, and every input that an option gives, as printed text: the answer is "
-        "a proven range, for all values that print so; what the case has is exact",
+        "a proven range, for all values that print so; all digits are significant, and a second "
+        "range is without zeros that end a whole number; what the case has is exact",
     )  # fmt: skip
     add_json(parser)
     add_quiet(parser)
@@ -76,6 +77,7 @@ def run(options: argparse.Namespace) -> int:
         "quantity": quantity,
         "value": answer.value,
         "interval": answer.interval,
+        "fewest_digits": answer.fewest_digits,
         "depth": answer.depth,
         "normalized_depth": answer.normalized_depth,
         "condition": answer.condition,
@@ -116,6 +118,11 @@ def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:
         rows.append((name, input_in_words(answer.quantity, answer.value)))
     if answer.interval is not None:
         rows.append(("range", _proven_range(answer, texts)))
+    if answer.fewest_digits is not None:
+        none = "" if answer.fewest_digits[0] > 0 else "; for some of that there is none"
+        ends = _in_its_unit(answer, answer.fewest_digits)
+        means = f"if the zeros that end a whole number count for none{none}"
+        rows.append(("fewest digits", f"{ends}, {means}"))
     if answer.condition is not None:
         means = "relative change of it for one of the depth"
         rows.append(("condition", f"{number(answer.condition, 3)}: {means}"))
@@ -125,11 +132,16 @@ def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:
 def _proven_range(answer: Solution, texts: Mapping[str, str]) -> str:
     """Return the interval, rounded outward, and for which texts it is proven."""
     assert answer.interval is not None
-    unit = shown_in(answer.quantity)
-    ends = [Fraction(end) / to_si(unit) for end in answer.interval]
     alike = ", ".join(f"{_without_underscores(name)} {text}" for name, text in texts.items())
-    proven = f"{with_unit(between(ends, 5), unit)}, proven for all that prints as {alike}"
+    ends = _in_its_unit(answer, answer.interval)
+    proven = f"{ends}, proven for all that prints as {alike}"
     return proven if answer.interval[0] > 0 else f"{proven}; for some of that there is none"
+
+
+def _in_its_unit(answer: Solution, interval: tuple[float, float]) -> str:
+    """Return an interval of the quantity in the unit in which it is shown."""
+    unit = shown_in(answer.quantity)
+    return with_unit(between([Fraction(end) / to_si(unit) for end in interval], 5), unit)
 
 
 def _without_underscores(name: str) -> str:

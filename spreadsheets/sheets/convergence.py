@@ -15,6 +15,14 @@ NO_ORDER = "–"
 """Stands for an order that is undefined."""
 
 
+SMALL = {"R_p": (10**6, "um"), "dt_s": (10**9, "ns"), "D_p": (10**6, "um"), "M_p": (10**15, "pg")}
+"""How many of which unit the SI unit of a number has that is small in SI units.
+
+An .ods file keeps only 20 decimals of a number: of a mass of 5e-11 kg ten digits. The comparison
+with the inputs of these runs must hold when the workbook was saved as one and opened again.
+"""
+
+
 def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
     """Return the names of all numbers on which the runs depend: inputs, derived numbers and π."""
     blocks = input_lines(cases, report=False).values()
@@ -70,12 +78,17 @@ def _inputs_of_runs(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> str:
     first, shown = sheet.row, "0.0####E+00"
     for name in run_inputs(cases):
         row = sheet.row
+        scale, unit = SMALL.get(name, (1, ""))
         # To twelve digits, since programs differ in how they round a conversion of units.
         same = f"=IFERROR(IF(ABS(I{row}-J{row})*1000000000000<=ABS(I{row}),1,0),0)"
         sheet.put(
-            H=Cell(name, "text"),
+            H=Cell(f"{name} [{unit}]" if unit else name, "text"),
             I=recorded(f"convergence.run.{name}", shown=shown),
-            J=formula(f"convergence.in_use.{name}", f"={name}", shown=shown),
+            J=formula(
+                f"convergence.in_use.{name}",
+                f"={name}*{scale}" if unit else f"={name}",
+                shown=shown,
+            ),
             K=formula(f"convergence.same.{name}", same, "text", shown='"same";;"other"'),
         )
     return f"K{first}:K{sheet.row - 1}"

@@ -221,6 +221,25 @@ def test_a_saddle_that_is_monotone_in_a_corner() -> None:
     assert (result.signs, result.idle) == ({"x": 1, "y": 1}, set())
 
 
+@pytest.mark.parametrize(
+    ("function", "ends", "expected"),
+    [
+        # About the middle: 1/4, and the slope 1 - 2 x of at most 1/5 times a half width of 1/10.
+        (lambda ar, x: x * (1 - x), (F(2, 5), F(3, 5)), (F(23, 100), F(27, 100))),
+        # By the factors alone, whatever their relation: the slope 2 x gives -2 to 2.
+        (lambda ar, x: x * x, (F(-1), F(1)), (F(-1), F(1))),
+    ],
+    ids=["middle", "factors"],
+)
+def test_where_nothing_is_monotone_the_narrower_of_two_bounds_holds(
+    function: Callable[..., Any], ends: tuple[F, F], expected: tuple[F, F]
+) -> None:
+    """The bound of interval arithmetic, and that of the slopes about the middle of the box."""
+    result = enclose(function, {"x": ends})
+    assert result.signs == {"x": 0}
+    assert result.ends == pytest.approx(expected, abs=1e-20)
+
+
 def test_bounds_that_nothing_narrows_are_those_of_the_box() -> None:
     constraint = (lambda ar, x, y: x * y, Interval(F(-1, 2), F(1, 2)))
     assert bounds([constraint], "x", {"x": (F(-2), F(2)), "y": (F(-1), F(1))}) == (-2, 2)

@@ -2,6 +2,7 @@
 
 import argparse
 import csv
+import io
 import json
 import os
 import re
@@ -18,7 +19,7 @@ from workbooks import Fake, rewritten, stored
 
 from replication import workbook
 from replication.audit.record import Record
-from replication.cli import COMMANDS
+from replication.cli import COMMANDS, main
 from replication.cli.parser import parse_command_line
 from replication.report.document import schema_text
 from spreadsheets.engines import Engine
@@ -102,15 +103,33 @@ def test_csv_is_the_json_with_all_digits() -> None:
     assert float(rows[0]["stop_rule"]) == record["levels"][0]["budget"]["stop_rule"]
 
 
+REFUSED_SETTINGS = {
+    "NUMBA_DISABLE_JIT=1": (
+        "coldspray sweep: plan: arrays need Numba's compiler: unset NUMBA_DISABLE_JIT\n"
+    ),
+    "NUMBA_NUM_THREADS=abc": (
+        "coldspray sweep: plan: Environment variable 'NUMBA_NUM_THREADS' is defined but its "
+        "associated value 'abc' could not be parsed. Correct or unset it\n"
+    ),
+    "NUMBA_NUM_THREADS=0": (
+        "coldspray bench: an environment variable NUMBA_...: Number of threads specified must be "
+        "> 0. Correct or unset it\n"
+    ),
+}
+"""What is said of settings of Numba's that it cannot use; the reasons are its own."""
+
+
 @pytest.mark.parametrize(
     ("setting", "arguments"),
     [
         ("PYTHONIOENCODING=cp1252", "claims a1-density --json"),
         ("NUMBA_DISABLE_JIT=1", "sweep plan"),
+        ("NUMBA_NUM_THREADS=abc", "sweep plan"),
+        ("NUMBA_NUM_THREADS=0", "bench"),
     ],
 )
 def test_the_surroundings_change_no_promise(setting: str, arguments: str, tmp_path: Path) -> None:
-    """JSON is UTF-8 in any locale; arrays without a compiler are refused in one line."""
+    """JSON is UTF-8 in any locale; settings with which Numba cannot compile are named in a line."""
     (tmp_path / "plan").write_text("[inputs]\nvelocity = [400.0, 500.0]\n")
     name, value = setting.split("=")
     command = [sys.executable, "-m", "replication", *arguments.split()]
@@ -122,9 +141,7 @@ def test_the_surroundings_change_no_promise(setting: str, arguments: str, tmp_pa
         assert b"\\u00" in done.stdout
     else:
         assert done.returncode == 2
-        assert done.stderr.decode() == (
-            "coldspray sweep: plan: arrays need Numba's compiler: unset NUMBA_DISABLE_JIT\n"
-        )
+        assert done.stderr.decode() == REFUSED_SETTINGS[setting]
 
 
 def test_a_write_protected_file_stays(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -146,6 +163,20 @@ def test_claims_are_listed() -> None:
     assert [line.split()[0] for line in listing] == [record["id"] for record in records]
 
 
+@pytest.mark.parametrize(
+    ("encoding", "newline", "columns"), [("utf-8", "\n", "80"), ("cp1252", "\r\n", "20")]
+)
+def test_the_schema_is_the_same_bytes_everywhere(
+    encoding: str, newline: str, columns: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It is a file of ASCII, so that neither Python's version nor an encoding changes it."""
+    printed = io.BytesIO()
+    monkeypatch.setenv("COLUMNS", columns)
+    monkeypatch.setattr(sys, "stdout", io.TextIOWrapper(printed, encoding, newline=newline))
+    assert main(["audit", "--schema"]) == 0
+    assert printed.getvalue() == schema_text().encode("ascii")
+
+
 def test_audit_writes_its_files_and_a_summary_of_one_screen(tmp_path: Path) -> None:
     folder = tmp_path / "new" / "out"
     status, out, err = coldspray("audit", "--out", folder)
@@ -161,7 +192,6 @@ def test_audit_writes_its_files_and_a_summary_of_one_screen(tmp_path: Path) -> N
     assert ending.endswith("Eq. 16 as printed is too small by a factor of 2.")  # the headline
     assert "audit.html" in out
     assert "\x1b" not in out
-    assert coldspray("audit", "--schema")[1] == schema_text()
     status, out, _ = coldspray("audit", "--out", folder, "--exit-code", "--json")
     assert status == 1
     assert json.loads(out) == json.loads((folder / "audit.json").read_text("utf-8"))
@@ -203,6 +233,20 @@ def test_a_full_disk_gets_one_line_and_status_2(
     assert done.returncode == 2
     if stream == "stdout":
         assert re.fullmatch(r"coldspray( depth)?: No space left on device\n", done.stderr)
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no device that is always full")
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_warning_that_cannot_be_written_changes_no_result(unbuffered: str) -> None:
+    command = [sys.executable, "-m", "replication", "depth", "--velocity", "1e-4"]
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
+    warned = subprocess.run(command, capture_output=True, text=True, check=True)
+    assert warned.stderr.startswith("coldspray depth: warning: --velocity is 0.0001 m/s")
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            command, stdout=-1, stderr=full, text=True, env=environment, check=False
+        )
+    assert (done.returncode, done.stdout) == (0, warned.stdout)
 
 
 def test_the_version() -> None:
@@ -378,7 +422,7 @@ def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
     assert rewritten(whole, lambda _, part: part) == whole  # so only the seal can tell
     for content in (
         rewritten(whole, lambda _, part: part.replace(b"<v>2.0</v>", b"<v>2.1</v>")),
-        rewritten(whole, lambda _, part: part.replace(b'width="5.7', b'width="6.7')),
+        rewritten(whole, lambda _, part: part.replace(b'width="8.7', b'width="9.7')),
         rewritten(whole, lambda _, part: part.replace(b"coldspray-sha256", b"coldspray-sha257")),
         whole[: len(whole) // 2],
         b"notes",

@@ -4,11 +4,14 @@
 """
 
 import json
+import os
 import re
 import resource
 import signal
 import subprocess
 import sys
+from contextlib import chdir, suppress
+from errno import ENOSPC
 from functools import cache, partial
 from pathlib import Path
 from typing import Any
@@ -20,7 +23,7 @@ from running import coldspray, promised, state
 
 from replication.cases import INPUTS
 from replication.sweep import read_plan
-from spreadsheets.safely import write_folder
+from spreadsheets.safely import check_folder, draft_of, write_folder
 
 # Random arguments and files
 
@@ -161,6 +164,79 @@ def test_a_full_disk(arguments: list[str], target: str, tmp_path: Path) -> None:
     assert (done.returncode, done.stdout) == (2, "")
     assert re.fullmatch(rf"coldspray {arguments[0]}: \S+: File too large\n", done.stderr)
     assert state(tmp_path) == before
+
+
+def full(monkeypatch: pytest.MonkeyPatch, after: int) -> None:
+    """Let the disk be full once this many files have been stored."""
+    store, stored = os.fsync, list[int]()
+
+    def fsync(file: int) -> None:
+        stored.append(file)
+        if len(stored) > after:
+            raise OSError(ENOSPC, os.strerror(ENOSPC))
+        store(file)
+
+    monkeypatch.setattr(os, "fsync", fsync)
+
+
+def test_of_two_files_none_is_replaced_if_the_disk_is_full_at_the_second(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rows = Path(__file__).parents[2] / "docs" / "rows.csv"
+    (tmp_path / "rows.csv").write_bytes(rows.read_bytes())
+    (tmp_path / "a.html").touch()
+    (tmp_path / "b.xml").touch()
+    full(monkeypatch, after=1)
+    _, _, err = promised(tmp_path, "check", "rows.csv", "--html", "a.html", "--junit", "b.xml")
+    assert err == "coldspray check: b.xml: No space left on device\n"
+
+
+@pytest.mark.parametrize(
+    ("module", "work", "arguments", "message"),
+    [
+        ("audit.audit", "audit", ["audit"], "coldspray-audit: this folder cannot be created: "),
+        ("audit.audit", "audit", ["audit", "--out", "/proc/no"], "/proc/no: this folder cannot be"),
+        ("workbook", "build", ["workbook"], "workbook.xlsx: the current folder was deleted"),
+        ("workbook", "build", ["workbook", "-o", "/proc/no.xlsx"], "/proc/no.xlsx: No such file"),
+        ("sweep", "write", ["sweep", "PLAN"], "plan.csv: the current folder was deleted"),
+        ("bench.measure", "bench", ["bench", "--out", "b"], "b: this folder cannot be created: "),
+        ("check.workbook", "check", ["check", "x", "--html", "y"], "y: the current folder was del"),
+    ],
+    ids=lambda value: " ".join(value) if isinstance(value, list) else "",
+)
+def test_what_cannot_be_written_is_refused_before_the_work(
+    module: str, work: str, arguments: list[str], message: str,
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
+) -> None:  # fmt: skip
+    """The current folder was deleted; and no file can be created in /proc, not even by root."""
+    monkeypatch.setattr(f"replication.{module}.{work}", None)  # calling it is a TypeError
+    (tmp_path / "plan.toml").write_text("[inputs]\nradius = 1e-6\n")
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    with chdir(gone):
+        gone.rmdir()
+        plan = str(tmp_path / "plan.toml")
+        status, out, err = coldspray(*[plan if x == "PLAN" else x for x in arguments])
+    assert (status, out) == (2, "")
+    assert err.startswith(f"coldspray {arguments[0]}: {message}")
+    assert err.count("\n") == 1
+
+
+def test_a_folder_that_was_tried_is_not_left(tmp_path: Path) -> None:
+    check_folder(tmp_path / "a" / "b", ["c", "d/e"])
+    assert state(tmp_path) == {}
+
+
+@pytest.mark.parametrize("length", [1, 230, 238, 239, 244, 250, 255])
+def test_a_file_whose_name_is_long_is_written(length: int, tmp_path: Path) -> None:
+    """A name has up to 255 bytes, and so has that of its draft; what was left of one goes."""
+    path = tmp_path / ("ü" * (length // 2) + "n" * (length % 2))
+    with suppress(KeyboardInterrupt), draft_of(path) as draft:
+        left = draft.with_name(draft.name.replace(f".{os.getpid()}.", ".12."))
+        left.write_text("half")
+        raise KeyboardInterrupt
+    write_folder(tmp_path, {path.name: b"new"})
+    assert state(tmp_path) == {path.name: b"new"}
 
 
 KILLED = """

@@ -303,6 +303,17 @@ def test_a_sweep_writes_its_file_and_its_figure(tmp_path: Path) -> None:
     assert {"Impact velocity [m/s]", "fit.csv"} <= set(shown(figure.read_bytes()))
 
 
+def test_a_fit_draws_further_points_that_it_does_not_fit(tmp_path: Path) -> None:
+    (tmp_path / "others.csv").write_text("velocity [m/s],depth [um]\n450,7\n650,10\n")
+    figure = tmp_path / "fit.svg"
+    alone = coldspray("fit", MEASURED)
+    drawn = coldspray("fit", MEASURED, "--plot", figure, "--data", tmp_path / "others.csv")
+    assert drawn == alone
+    assert {"fit.csv", "others.csv"} <= set(shown(figure.read_bytes()))
+    (marks,) = ET.fromstring(figure.read_text()).iterfind(f".//{SVG}g[@id='further-data']")
+    assert len(list(marks.iter(f"{SVG}use"))) == 2
+
+
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [

@@ -55,6 +55,21 @@ def test_rounded_takes_every_text_as_printed() -> None:
     )
 
 
+def test_zeros_that_end_a_whole_number_may_not_be_significant() -> None:
+    """500 m/s to three digits is 499.5 to 500.5, and to one 450 to 550; the case's is exact."""
+    arguments = ("resistance", "--depth", "3.3 um", "--rounded")
+    exact = answer(*arguments)
+    assert exact["fewest_digits"] is None  # 3.3 has two digits, and no other number
+    record = answer(*arguments, "--velocity", "500")
+    # R_t is proportional to the square of the velocity.
+    low, high = exact["interval"]
+    assert record["fewest_digits"] == pytest.approx([low * 0.9**2, high * 1.1**2], rel=1e-14)
+    assert answer(*arguments, "--velocity", "500.")["fewest_digits"] is None
+    said = coldspray("solve", *arguments, "--velocity", "500")[1]
+    assert "fewest digits" in said
+    assert "fewest digits" not in coldspray("solve", *arguments)[1]
+
+
 def test_a_case_file_is_exact(tmp_path: Path) -> None:
     file = tmp_path / "case.toml"
     file.write_text("[impact]\nvelocity = 500\n", "utf-8")
