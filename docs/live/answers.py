@@ -268,8 +268,12 @@ def _resistance(impact: Impact, text: str) -> Table:
         return {"refused": f"Measured depth is {times} times the radius, too far to compute with"}
     except ValueError as wrong:
         return {"refused": str(wrong)}
-    proven = None
-    if answer.interval is not None:
-        ends = [Fraction(end) / to_si("GPa") for end in answer.interval]
-        proven = f"{between(ends, 5)} GPa"
-    return {"resistance": answer.value, "range": proven, "depth": answer.depth}
+    return {
+        "resistance": answer.value, "depth": answer.depth,
+        "range": answer.interval and _in_gigapascals(answer.interval),
+        "fewest_digits": answer.fewest_digits and _in_gigapascals(answer.fewest_digits),
+    }  # fmt: skip
+
+
+def _in_gigapascals(interval: tuple[float, float]) -> str:
+    return f"{between([Fraction(end) / to_si('GPa') for end in interval], 5)} GPa"

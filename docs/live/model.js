@@ -142,9 +142,12 @@ export class Model {
     const proven = inverse.range
       ? ` Proven for all depths that are printed as ${printed}: ${inverse.range}.`
       : "";
+    const fewest = inverse.fewest_digits
+      ? ` If the zeros that end it count for no digits: ${inverse.fewest_digits}.`
+      : "";
     document.getElementById("inverse").textContent = inverse.refused
       ? `No resistance: ${inverse.refused}.`
-      : `A depth of ${micro(inverse.depth)} µm takes Rₜ = ${giga(inverse.resistance)} GPa.${proven}`;
+      : `A depth of ${micro(inverse.depth)} µm takes Rₜ = ${giga(inverse.resistance)} GPa.${proven}${fewest}`;
     this.showDoubts(answer);
     this.showRows(sheet);
     this.showApproaches(answer.approaches);

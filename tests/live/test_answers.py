@@ -211,6 +211,12 @@ def test_a_proven_range_is_never_shown_narrower(answers: ModuleType, depth: str)
     assert low <= Fraction(interval[0]) <= Fraction(interval[1]) <= high
 
 
+def test_zeros_that_may_be_no_digits_have_a_range_of_their_own(answers: ModuleType) -> None:
+    inverse = modelled(answers, measured_depth="3300 nm")["inverse"]
+    assert inverse["range"] == "17.821 to 17.832 GPa"
+    assert inverse["fewest_digits"] == modelled(answers)["inverse"]["range"]
+
+
 def test_the_range_of_a_claim_is_never_shown_narrower(
     answers: ModuleType, stored: dict[str, Any]
 ) -> None:
