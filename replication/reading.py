@@ -234,9 +234,8 @@ def _number_and_unit(text: str, unit: str) -> tuple[str, str]:
     plain = _TIMES_TEN.sub(r"e\1", in_ascii(text.strip())) if len(text) < 400 else ""
     match = _NUMBER.fullmatch(plain)
     if match is None:
-        raise ValueError(
-            f"{quoted(text, 40)} is not a finite number with or without a unit, such as '1 {unit}'"
-        )
+        example = "" if unit == "1" else f" with or without a unit, such as '1 {unit}'"
+        raise ValueError(f"{quoted(text, 40)} is not a finite number{example}")
     given_unit = match["unit"]
     if given_unit[:1] == ",":
         raise ValueError(

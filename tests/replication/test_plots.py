@@ -4,6 +4,7 @@ import csv
 import json
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -241,9 +242,28 @@ def test_the_sheet_is_marked_at_its_rows(figures: dict[str, Figure]) -> None:
     """Of 178 steps every sixth is marked, and the last."""
     marks = figures["sheet"].axes[0].get_lines()[1]
     rows = run(BETA_3).rows
-    assert marks.get_label() == "the sheet, one row of 6"
+    assert marks.get_label() == "the sheet, one row of 6, each in the middle of its step"
     expected = [row.depth * 1e6 for row in [*rows[::6], rows[-1]]]
     assert list(marks.get_ydata()) == expected
+
+
+def test_the_depths_of_a_coarse_sheet_are_drawn_where_the_motion_has_them() -> None:
+    """The first depth, V dt / 2, is that of half a step; at the row's time it would be half of it.
+
+    Near the touch x'' = -w^2 x, so that x = V t (1 - (w t)^2 / 6 + ...). For beta 5 w^2 is
+    6.24e15 / s^2, and at 0.5 ns the difference is 2.6e-4 of V t.
+    """
+    axes = plots.plot_sheet(run(replace(BETA_5, step=1e-9))).axes
+    (_, depths), (_, speeds) = (panel.get_lines()[:2] for panel in axes)
+    time, depth = (
+        [float(x) for x in data[:2]] for data in (depths.get_xdata(), depths.get_ydata())
+    )
+    assert (time[0], depth[0]) == (0.0, 0.0)
+    assert time[1] == pytest.approx(0.5)
+    exact = [0.0]
+    history([time[1] * 1e-9], **BETA_5.motion, depth=exact, speed=[0.0])
+    assert depth[1] == pytest.approx(exact[0] * 1e6, rel=3e-4)
+    assert list(speeds.get_xdata())[1] == pytest.approx(1.0)
 
 
 def test_a_map_without_contours_says_so(drawings: dict[str, bytes]) -> None:
