@@ -90,6 +90,8 @@ def run(options: argparse.Namespace) -> int:
     if typed_strength is not None:
         strength = _read_input("--particle-strength", "particle_strength", typed_strength, "Pa")
         threshold = penetration_threshold(strength, case.target_resistance, case.particle_density)
+        if strength > 0:  # a particle without any is a jet
+            warnings += doubt("flow_stress", strength, "--particle-strength")
     if "resistance" in own:
         warnings += doubt("resistance", own["resistance"], OPTIONS["resistance"])
     record: dict[str, Any] = {"inputs": inputs_of(case), "models": results}

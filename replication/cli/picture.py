@@ -46,6 +46,11 @@ def checked(
     return None if data is None else read(data)
 
 
+def notes_on(points: "Points | None") -> list[str]:
+    """Return the notes on the file of one's own points, if there is one."""
+    return [] if points is None else [*points.notes]
+
+
 def write_picture(options: argparse.Namespace, figure: Callable[[], "Figure"]) -> None:
     """Write the figure, if it is asked for, whole or not at all."""
     with drafted(options, figure):

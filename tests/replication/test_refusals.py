@@ -343,6 +343,14 @@ def test_a_case_file_is_refused(
             "--times, value 2: '-1 ns' is not between 0 and 1e250 s",
         ),
         (
+            ["history", "--times", "0,5,10 ns"],
+            "--times: '5' has no unit, and others have one: write \"0 ns,5 ns,10 ns\"",
+        ),
+        (
+            ["converge", "--steps", "0.4 ns, 0.2"],
+            "--steps: '0.2' has no unit, and others have one: write \"0.4 ns,0.2 ns\"",
+        ),
+        (
             ["history", "--times", "soon"],
             (
                 "--times, value 1: 'soon' is not a finite number with or without a unit, such "
