@@ -178,16 +178,17 @@ def not_among(columns: Iterable[Column], used: Iterable[Column]) -> list[Column]
     return [column for column in columns if column.head not in heads]
 
 
-def note_of_unused(columns: Iterable[Column], used: Iterable[Column]) -> list[str]:
+def note_of_unused(columns: Sequence[Column], used: Iterable[Column]) -> list[str]:
     """Return a note that names the columns that are not among those used; none if all are.
 
     >>> mine = [Column("my.csv", head, head, "", (), ()) for head in ("v", "x", "shot")]
     >>> note_of_unused(mine, mine[:2])
-    ["columns not used: 'shot'"]
+    ["my.csv: columns not used: 'shot'"]
     """
     heads = [quoted(column.head) for column in not_among(columns, used)]
     more = [f"and {len(heads) - 12} more"] if len(heads) > 12 else []
-    return [f"columns not used: {', '.join(heads[:12] + more)}"] if heads else []
+    text = f"columns not used: {', '.join(heads[:12] + more)}"
+    return [f"{columns[0].file}: {text}"] if heads else []
 
 
 def column_of(columns: Sequence[Column], names: Sequence[str]) -> Column | None:

@@ -194,8 +194,12 @@ class Points:
     columns: Mapping[AxisQuantity, Sequence[float]]
     notes: Sequence[str] = ()
 
-    def draw(self, panel: "Axes", x: AxisQuantity, y: AxisQuantity) -> None:
+    def draw(
+        self, panel: "Axes", x: AxisQuantity, y: AxisQuantity, *, further: bool = False
+    ) -> None:
         """Draw them on a panel of y against x, with bars for the uncertainty of a depth.
+
+        further: others than those that a fit is of.
 
         Nothing is drawn if there is no column of one of the two.
         """
@@ -205,17 +209,20 @@ class Points:
         if y is DEPTH and UNCERTAINTY in self.columns:
             bars = y.shown(self.columns[UNCERTAINTY])
         across, up = (quantity.shown(self.columns[quantity]) for quantity in (x, y))
-        _draw_own_points(panel, across, up, bars, self.file)
+        _draw_own_points(panel, across, up, bars, self.file, further=further)
 
 
-def _draw_own_points(panel: "Axes", x: Any, y: Any, bars: Any, label: str) -> None:
+def _draw_own_points(
+    panel: "Axes", x: Any, y: Any, bars: Any, label: str, *, further: bool = False
+) -> None:
     """Draw measured points: hollow, above all else, and with the id `data` in an SVG."""
-    hollow = {"linestyle": "", "marker": "o", "markersize": 6, "markerfacecolor": "none"}
+    marker = "s" if further else "o"
+    hollow = {"linestyle": "", "marker": marker, "markersize": 6, "markerfacecolor": "none"}
     settings: Any = {**hollow, "color": INK, "zorder": 5}
     if bars is not None:
         panel.errorbar(x, y, bars, color=INK, linestyle="", linewidth=0.8, capsize=2, zorder=4.9)
     (marks,) = panel.plot(x, y, label=label, **settings)
-    marks.set_gid("data")
+    marks.set_gid("further-data" if further else "data")
 
 
 def read_points(path: Path, x: AxisQuantity | None, ys: Sequence[AxisQuantity]) -> Points:
@@ -466,8 +473,11 @@ def plot_fit(
     fit: Fit,
     title: str = "",
     file: str = "measured",
+    points: Points | None = None,
 ) -> "Figure":
     """Draw measured depths with the fitted curve over velocity, and the residuals below.
+
+    One's own points are further ones, drawn as squares, which were not fitted.
 
     The curve is for the inputs of the measurements if these differ in nothing but the velocity;
     otherwise the fitted depth of each measurement is marked. `fit` is of `replication.fit.fit`.
@@ -491,6 +501,8 @@ def plot_fit(
             fitted = [final_depth(*m.impact, fit.resistance) for m in measurements]
             above.plot(x.shown(speeds), DEPTH.shown(fitted), label=words, **look.of_marks)
         _draw_own_points(above, x.shown(speeds), DEPTH.shown(depths), bars, file)
+        if points:
+            points.draw(above, x, DEPTH, further=True)
         below.axhline(0, **look.of_line)
         _draw_own_points(below, x.shown(speeds), DEPTH.shown(fit.residuals), bars, file)
         above.set_ylabel(DEPTH.title)

@@ -7,7 +7,7 @@ from typing import Any
 from replication import page
 from replication.check.diff import FOLLOWS, LAST, Comparison, not_stored
 from replication.check.difference import Difference, counted
-from replication.check.shown import anchor, drawn, safe, whereabouts, wrapped
+from replication.check.shown import NO_LIMIT, anchor, drawn, fitted, safe, whereabouts, wrapped
 from replication.reading import printable
 from spreadsheets.foreign import Book, Position
 
@@ -91,9 +91,9 @@ def _is_plain(text: str) -> bool:
     return text.startswith(("#", "'")) or text in ("TRUE", "FALSE")
 
 
-def text(record: Record) -> str:
-    """The result for a terminal, the most important first."""
-    return "\n".join(_lines(record))
+def text(record: Record, width: int = NO_LIMIT) -> str:
+    """The result for a terminal of this width, the most important first."""
+    return fitted(_lines(record), width)
 
 
 def _lines(record: Record) -> Iterator[str]:

@@ -10,11 +10,11 @@ from replication import page
 from replication.check.delimited import column_at, where
 from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, Difference, Examination
-from replication.check.shown import anchor, drawn, safe, whereabouts, wrapped
+from replication.check.shown import NO_LIMIT, anchor, drawn, fitted, safe, whereabouts, wrapped
 from replication.check.table import Line, Table, address
 from replication.check.words import COLUMNS, INPUTS, is_unit, unit_text
 from replication.check.workbook import Check
-from replication.text import aligned, quantity, with_unit
+from replication.text import columns, quantity, with_unit
 from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Book, Position
 
@@ -201,12 +201,12 @@ def contents(difference: Record) -> str:
     return f"holds {found}, should {'read' if reads else 'hold'} {expected}"
 
 
-def text(record: Record) -> str:
-    """The result for a terminal, the most important first."""
-    return "\n".join(_lines(record))
+def text(record: Record, width: int = NO_LIMIT) -> str:
+    """The result for a terminal of this width, the most important first."""
+    return fitted(_lines(record, width), width)
 
 
-def _lines(record: Record) -> Iterator[str]:
+def _lines(record: Record, width: int) -> Iterator[str]:
     yield from (record["verdict"], safe(record["file"], 200))
     first, differences = record["first"], record["differences"]
     if first:
@@ -223,7 +223,7 @@ def _lines(record: Record) -> Iterator[str]:
             for d in of_kind[:_MOST]
         ]
         yield from _list(title, lines, len(of_kind))
-    tables = [line for taken in record["taken"] for line in _table(taken)]
+    tables = [line for taken in record["taken"] for line in _table(taken, width)]
     yield from _list("What was taken for what", tables)
     yield from _list("Notes", [f"  {safe(note, 200)}" for note in record["notes"]])
     claims = record["claims"]
@@ -241,11 +241,12 @@ def _lines(record: Record) -> Iterator[str]:
     ]
     if claims:
         met = f"{len(claims)}, {len(claims) - len(unmet)} as printed"
-        yield from ("", f"Of the report's printed numbers it holds {met}", *aligned(rows))
+        yield from ("", f"Of the report's printed numbers it holds {met}")
+        yield columns(rows, width)
     yield from _list("", [], len(shown))
 
 
-def _table(taken: Record) -> Iterator[str]:
+def _table(taken: Record, width: int) -> Iterator[str]:
     """What was taken for what in a table, as lines."""
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
@@ -261,7 +262,7 @@ def _table(taken: Record) -> Iterator[str]:
          _known_by(entry["by"], entry["label"]))
         for name, entry in taken["inputs"].items()
     ]  # fmt: skip
-    yield from aligned([(f"    {name.replace('_', ' ')}", *rest) for name, *rest in entries])
+    yield columns([(f"    {name.replace('_', ' ')}", *rest) for name, *rest in entries], width)
 
 
 _KNOWN_BY = {

@@ -9,6 +9,7 @@ from openpyxl.utils.cell import get_column_letter
 
 from replication.check.difference import Difference
 from replication.reading import printable
+from replication.text import prose
 from spreadsheets.engines import address
 from spreadsheets.foreign import Position
 
@@ -28,6 +29,25 @@ def safe(text: object, limit: int = 90) -> str:
     """
     plain = printable(str(text)[: limit + 1])
     return plain if len(plain) <= limit else f"{plain[: limit - 3]}..."
+
+
+NO_LIMIT = 10_000
+"""The width where nobody reads on a terminal: no line is broken for it."""
+
+
+def fitted(lines: Iterable[str], width: int) -> str:
+    """Lines of text as one, with those that are too long for a terminal broken between words.
+
+    >>> print(fitted(["  holds 499, should hold 495.1"], 20))
+      holds 499, should
+        hold 495.1
+    """
+    shown: list[str] = []
+    for line in (part for text in lines for part in text.split("\n")):
+        indent = " " * (len(line) - len(line.lstrip()))
+        long = len(line) > width
+        shown.append(prose(line.lstrip(), width, indent, f"{indent}  ") if long else line)
+    return "\n".join(shown)
 
 
 def wrapped(line: str, indent: str) -> str:

@@ -23,8 +23,8 @@ from replication.check.words import (
     is_unit,
     share,
 )
+from replication.reading import advice, quoted
 from replication.reading import place as named
-from replication.reading import quoted
 from spreadsheets.evaluate import Evaluator, Shape, parse, shape_key
 from spreadsheets.foreign import Book, Position, without_zeros
 from spreadsheets.scalars import Area, Error
@@ -385,8 +385,8 @@ def _area(name: str, where: str, evaluator: Evaluator) -> Area:
     """Return the range that --map gives. Raises ValueError if there is no single one."""
     book = evaluator.book
     if name not in (*_LINES, *INPUTS):
-        known = ", ".join(dict.fromkeys([*COLUMNS, *INPUTS]))
-        raise ValueError(f"--map {name[:40]!r} is not a known name; choose one of {known}")
+        meant = advice(name, dict.fromkeys([*COLUMNS, *INPUTS]))
+        raise ValueError(f"--map {name[:40]!r} is not a known name; {meant}")
     areas: list[Area] = []
     for sheet in book.sheets:
         shape = parse(f"={where}", sheet, book, shape_key(f"={where}", 1, 1))

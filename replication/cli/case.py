@@ -1,8 +1,8 @@
 """The options that name a case and change its inputs; a case in a line, and what is odd in it."""
 
 import argparse
-from collections.abc import Collection, Mapping
-from contextlib import suppress
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from fractions import Fraction
 from typing import NamedTuple, NoReturn
 
@@ -69,6 +69,23 @@ def case_of(options: argparse.Namespace) -> tuple[Impact, list[str]]:
     name = "beta-5" if options.case is None else options.case
     case = read_case(name, options.case_file, given)
     return case, doubts(case, given)
+
+
+@contextmanager
+def doubted(warnings: Sequence[str]) -> Iterator[None]:
+    """Let an error in the block end with what is odd in the case, which may be its reason.
+
+    >>> with doubted(["--radius is 11 m"]):
+    ...     raise ValueError("too many steps")
+    Traceback (most recent call last):
+    ValueError: too many steps; --radius is 11 m
+    """
+    try:
+        yield
+    except ValueError as error:
+        if not warnings:
+            raise
+        raise ValueError(f"{error}; {warnings[0]}") from error
 
 
 def is_given(options: argparse.Namespace) -> bool:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from reference.scheme import Scheme
-from replication.cli.case import add_inputs, case_of, in_words
+from replication.cli.case import add_inputs, case_of, doubted, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme, times, whole
 from replication.cli.output import filled, put, width
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
@@ -58,8 +58,9 @@ def run(options: argparse.Namespace) -> int:
         steps = ladder(case.step, options.levels)
     else:
         steps = times("--steps", options.steps, MOST_STEPS)
-    record = converge(case, steps, scheme)
-    record["digits"] = options.digits and step_for_digits(case, options.digits, scheme)
+    with doubted(warnings):
+        record = converge(case, steps, scheme)
+        record["digits"] = options.digits and step_for_digits(case, options.digits, scheme)
     record["warnings"] = warnings
     write_picture(options, lambda: _convergence_figure(case, record, points))
     rows = [level | level["budget"] for level in record["levels"]]

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from replication.cli.options import add_json, add_quiet, path
-from replication.cli.output import put
+from replication.cli.output import put, width
 
 
 def add_files(parser: argparse.ArgumentParser) -> None:
@@ -42,7 +42,7 @@ def check_files(options: argparse.Namespace, *workbooks: Path) -> None:
 def put_differences(
     options: argparse.Namespace,
     record: dict[str, Any],
-    text: Callable[[Mapping[str, Any]], str],
+    text: Callable[[Mapping[str, Any], int], str],
     page: Callable[[], str],
     junit: Callable[[Mapping[str, Any]], str],
 ) -> int:
@@ -55,5 +55,5 @@ def put_differences(
     if options.junit is not None:
         written.append((options.junit, junit(record).encode()))
     write_files(written)
-    put(options, record, lambda: text(record), quietly=True)
+    put(options, record, lambda: text(record, width(piped=10_000)), quietly=True)
     return 0 if record["clean"] else 1

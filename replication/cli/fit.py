@@ -15,9 +15,9 @@ from replication.cli.case import (
     inputs_in_words,
     refuse_sought,
 )
-from replication.cli.options import add_csv_and_json, add_quiet, one_of, path, refuse
+from replication.cli.options import add_csv_and_json, add_quiet, one_of, path
 from replication.cli.output import filled, put
-from replication.cli.picture import add_plot, checked, write_picture
+from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.columns import note_of_unused, read_columns
 from replication.fit import (
     FITTABLE,
@@ -34,6 +34,8 @@ from replication.text import aligned, number, numbers, percent
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
+
+    from replication.plots import Points
 
 HELP = "fit the resistance, or beta, to measured velocities and depths"
 EXAMPLE = "coldspray fit measured.csv --quantity beta --flow-stress '700 MPa'"
@@ -55,8 +57,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
     add_csv_and_json(parser, "print the measurements, with fitted depths and residuals, as CSV")
     add_quiet(parser)
-    add_plot(parser)
-    refuse(parser, "--data", "the points of DATA.csv are drawn: give --plot FILE.svg alone")
+    add_plot(parser, data="velocity and depth, which are not fitted")
     add_inputs(parser, with_sheet=False, without=["velocity"])
 
 
@@ -68,10 +69,11 @@ def run(options: argparse.Namespace) -> int:
     refuse_sought(quantity, given, "fitted")
     case, warnings = case_of(options)
     check_factor(case, quantity)
-    checked(options, lambda _: None, options.file, options.case_file)
+    points = checked(options, _further_points, options.file, options.case_file)
     columns = read_columns(options.file)
     measurements = measurements_in(columns, case)
-    notes = note_of_unused(columns, measurement_columns(columns).values())
+    used = measurement_columns(columns).values()
+    notes = note_of_unused(columns, used) + notes_on(points)
     with place(str(options.file)):
         fitted = fit(case, measurements, quantity)
     warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))
@@ -79,7 +81,7 @@ def run(options: argparse.Namespace) -> int:
     if other := OTHER_FACTOR.get(quantity):
         inputs[other] = fitted.resistance / fitted.value
     rows = _fitted_rows(fitted, measurements)
-    write_picture(options, lambda: _fit_figure(options.file, fitted, measurements, inputs))
+    write_picture(options, lambda: _fit_figure(options.file, fitted, measurements, inputs, points))
     record = {
         "inputs": inputs,
         "quantity": quantity,
@@ -96,12 +98,22 @@ def run(options: argparse.Namespace) -> int:
     return put(options, record, lambda: _fit_text(fitted, inputs, rows), rows, warnings, notes)
 
 
+def _further_points(file: Path) -> "Points":
+    from replication.plots import DEPTH, INPUT, read_points
+
+    return read_points(file, INPUT["velocity"], (DEPTH,))
+
+
 def _fit_figure(
-    file: Path, fitted: Fit, measurements: Sequence[Measurement], inputs: Mapping[str, float]
+    file: Path,
+    fitted: Fit,
+    measurements: Sequence[Measurement],
+    inputs: Mapping[str, float],
+    points: "Points | None",
 ) -> "Figure":
     from replication.plots import plot_fit
 
-    return plot_fit(measurements, fitted, inputs_in_words(inputs), file.name)
+    return plot_fit(measurements, fitted, inputs_in_words(inputs), file.name, points)
 
 
 def _common_inputs(measurements: Sequence[Measurement]) -> dict[str, float]:

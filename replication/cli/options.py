@@ -41,15 +41,6 @@ def add_scheme(parser: argparse.ArgumentParser) -> None:
     )  # fmt: skip
 
 
-def refuse(group: Group, option: str, instead: str) -> None:
-    """Refuse an option that a command does not have and users try; `instead` says what is right."""
-
-    def read(_: str) -> str:
-        raise argparse.ArgumentTypeError(instead)
-
-    group.add_argument(option, type=read, help=argparse.SUPPRESS)
-
-
 def one_of(what: str, known: Iterable[Name]) -> Callable[[str], Name]:
     """Return a reader of one of the known names; `what` is what they name."""
     names = {str(name): name for name in known}

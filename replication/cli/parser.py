@@ -65,6 +65,10 @@ class _Flag(_Store):
         super().__init__(option_strings, dest, nargs=0, const=True, default=False, **settings)
 
 
+_OWN_OPTIONS = ("-h", "--help", "--version")
+"""The options that stand without a command."""
+
+
 class _Version(argparse.Action):
     def __call__(self, parser: argparse.ArgumentParser, *_: Any) -> NoReturn:
         from importlib.metadata import version
@@ -108,6 +112,8 @@ def parse_command_line(
     first = arguments[0]
     if first not in commands and (first == "--" or not first.startswith("-")):
         parser.error(f"there is no command {quoted(first)}: {advice(first, commands)}")
+    if first.startswith("-") and not any(own.startswith(first) for own in _OWN_OPTIONS):
+        parser.error(f"{quoted(first)} comes before a command: begin with that, such as depth")
     options, unknown = parser.parse_known_args(arguments)
     if unknown:  # refer to the help of the command, not of `coldspray`
         own = choice.choices[options.command]

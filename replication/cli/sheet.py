@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from replication.cases import inputs_of
-from replication.cli.case import add_inputs, case_of, in_words
+from replication.cli.case import add_inputs, case_of, doubted, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme
 from replication.cli.output import filled, put
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
@@ -36,7 +36,8 @@ def run(options: argparse.Namespace) -> int:
 
     case, warnings = case_of(options)
     points = checked(options, _own_points, options.case_file)
-    result = sheet.run(case, options.scheme)
+    with doubted(warnings):
+        result = sheet.run(case, options.scheme)
     write_picture(options, lambda: _sheet_figure(result, points))
     rows = [row._asdict() for row in result.rows] if options.json or options.csv else []
     doubts = error.warnings(result)

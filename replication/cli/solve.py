@@ -131,10 +131,10 @@ def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:
     if answer.interval is not None:
         rows.append(("range", _proven_range(answer, texts)))
     if answer.fewest_digits is not None:
+        none = "" if answer.fewest_digits[0] > 0 else "; for some of that there is none"
         ends = _in_its_unit(answer, answer.fewest_digits)
-        rows.append(
-            ("fewest digits", f"{ends}, if the zeros that end a whole number count for none")
-        )
+        means = f"if the zeros that end a whole number count for none{none}"
+        rows.append(("fewest digits", f"{ends}, {means}"))
     if answer.condition is not None:
         means = "relative change of it for one of the depth"
         rows.append(("condition", f"{number(answer.condition, 3)}: {means}"))

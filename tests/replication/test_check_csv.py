@@ -189,6 +189,8 @@ def test_every_place_in_a_text_file_is_where(tmp_path: Path) -> None:
         assert re.search(r"\bline", entry["where"]), entry
     assert record["claims"]
     assert all("line" not in claim for claim in record["claims"])
+    assert max(map(len, text(record).splitlines())) > 80
+    assert max(map(len, text(record, 80).splitlines())) <= 80
 
 
 @pytest.mark.parametrize(("content", "message"), [

@@ -286,8 +286,8 @@ def test_a_sweep_writes_its_file_and_its_figure(tmp_path: Path) -> None:
 def test_columns_of_ones_own_points_that_are_not_drawn_are_named(tmp_path: Path) -> None:
     data = own(tmp_path, "own.csv", "t [ns],x [um],size [um],std [um]\n5,2.4,22,0.1\n")
     plotted = ("history", "--points", "2", "--plot", tmp_path / "figure.svg", "--data", data)
-    note = "columns not used: 'size [um]'"
-    assert f"\nnote: {note}\n" in coldspray(*plotted)[1]
+    note = f"{data}: columns not used: 'size [um]'"
+    assert f"note: {note}" in " ".join(coldspray(*plotted)[1].split())
     assert json.loads(coldspray(*plotted, "--json")[1])["notes"] == [note]
 
 
@@ -296,6 +296,17 @@ def test_an_error_that_an_axis_shows_is_no_uncertainty(tmp_path: Path) -> None:
     points = plots.read_points(data, plots.STEP, (plots.ERROR, plots.DEPTH))
     assert points.columns[plots.ERROR] == [25e-9]
     assert points.columns[plots.UNCERTAINTY] == [0.1e-6]
+
+
+def test_a_fit_draws_further_points_that_it_does_not_fit(tmp_path: Path) -> None:
+    (tmp_path / "others.csv").write_text("velocity [m/s],depth [um]\n450,7\n650,10\n")
+    figure = tmp_path / "fit.svg"
+    alone = coldspray("fit", MEASURED)
+    drawn = coldspray("fit", MEASURED, "--plot", figure, "--data", tmp_path / "others.csv")
+    assert drawn == alone
+    assert {"fit.csv", "others.csv"} <= set(shown(figure.read_bytes()))
+    (marks,) = ET.fromstring(figure.read_text()).iterfind(f".//{SVG}g[@id='further-data']")
+    assert len(list(marks.iter(f"{SVG}use"))) == 2
 
 
 @pytest.mark.parametrize(

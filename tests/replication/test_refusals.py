@@ -55,6 +55,11 @@ def at(line: int | None, message: str) -> str:
             ("coldspray: there is no command 'dept': did you mean depth? (see coldspray --help)"),
         ),
         (
+            ["--velocity", "3"],
+            "coldspray: '--velocity' comes before a command: begin with that, such as depth "
+            "(see coldspray --help)",
+        ),
+        (
             ["depth", "--velocity", "−5"],
             ("coldspray depth: --velocity is -5.0: it must be a finite number greater than zero"),
         ),
@@ -314,6 +319,14 @@ def test_a_case_file_is_refused(
             (
                 "the sheet takes more than 1,000,000 steps of 1e-18 s down to 1.0 m/s: take a "
                 "larger step"
+            ),
+        ),
+        (
+            ["sheet", "--radius", "11"],
+            (
+                "the sheet takes more than 1,000,000 steps of 2e-10 s down to 1.0 m/s: take a "
+                "larger step; --radius is 11 m: from 1e-09 to 1 m is expected; did you mean "
+                '"11 um"?'
             ),
         ),
         (
@@ -1142,6 +1155,10 @@ def test_a_text_that_once_broke_it_is_refused(
         (
             ["check", "own.xlsx", "--map", "x\n=B4"],
             "own.xlsx: --map 'x' is not a known name; " + NAMES,
+        ),
+        (
+            ["check", "own.xlsx", "--map", "depht=B4"],
+            "own.xlsx: --map 'depht' is not a known name; did you mean depth?",
         ),
         (
             ["check", "own.xlsx", "--map", 5000 * "k" + "=B4"],
