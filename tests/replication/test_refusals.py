@@ -235,7 +235,8 @@ def test_what_is_no_toml_is_refused(command: str, content: str, hostile: Path) -
                 "--radius",
                 "1e-50",
             ],
-            "work is 5e+299: doubles carry 1e-250 to 1e250 safely",
+            "kinetic energy density over target resistance is 5e+299: doubles carry 1e-250 to "
+            "1e250 safely",
         ),
         (["depth", "--case-file", "absent.toml"], "absent.toml: No such file or directory"),
         (["depth", "--case-file", "."], ".: Is a directory"),
