@@ -10,7 +10,7 @@ import math
 import operator
 from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
-from functools import cache
+from functools import cache, cached_property
 from typing import Any, Self
 
 Number = Any
@@ -82,8 +82,17 @@ class Reals(Arithmetic):
     """
 
     def __init__(self, digits: int = 50) -> None:
-        self.context = _context(digits)
-        self.pi = +self.context.pi
+        self.digits = digits
+
+    @cached_property
+    def context(self) -> Any:
+        """The numbers' mpmath context, made when the first of them is computed."""
+        return _context(self.digits)
+
+    @cached_property
+    def pi(self) -> Number:
+        """The number pi, rounded to the digits."""
+        return +self.context.pi
 
     def number(self, value: Fraction | int) -> Number:
         return self.context.mpf(value.numerator) / value.denominator

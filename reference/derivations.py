@@ -130,6 +130,17 @@ def premises_of(equation: str) -> tuple[str, ...]:
     return DERIVATIONS[equation].premises if equation in DERIVATIONS else ()
 
 
+def derived_from(equation: str) -> set[str]:
+    """Return the ids of the equations that are checked with an equation: it and those it is for.
+
+    A derivation reads its premises as printed, so what they in turn follow from has no part in it.
+
+    >>> sorted(derived_from("eq14"))
+    ['eq14', 'eq16']
+    """
+    return {equation, *(name for name in DERIVATIONS if equation in premises_of(name))}
+
+
 # The derivations, in the order of the report
 
 

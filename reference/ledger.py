@@ -30,7 +30,7 @@ INFERRED = "inferred:"
 """The prefix of the id of an input that the report does not print."""
 
 Kind = Literal[
-    "input", "result", "approximation", "order of magnitude", "bound", "comparison", "range",
+    "input", "result", "approximation", "order of magnitude", "bound", "range",
     "quoted", "constant", "remark",
 ]  # fmt: skip
 
@@ -182,7 +182,6 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     unit: str = "1"
     exact: bool = False
     relation: Literal["<", "<=", ">", ">="] | None = None
-    against: str | None = None
     cell: str | None = None
     row: int | None = None
     quantity: str | None = None
@@ -204,8 +203,8 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
 
     @cached_property
     def printed(self) -> Printed | None:
-        """The printed number; None for a comparison or a remark."""
-        return None if self.kind in ("comparison", "remark") else parse(self.text)
+        """The printed number; None for a remark."""
+        return None if self.kind == "remark" else parse(self.text)
 
     @property
     def shown(self) -> str:
@@ -219,14 +218,14 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
 
     @property
     def number(self) -> Printed:
-        """The printed number. Raises ValueError for a comparison or a remark."""
+        """The printed number. Raises ValueError for a remark."""
         if self.printed is None:
             raise ValueError(f"claim {self.id!r} prints no number")
         return self.printed
 
     @cached_property
     def value(self) -> Fraction:
-        """The number as printed, in SI. Raises ValueError for a comparison or a remark."""
+        """The number as printed, in SI. Raises ValueError for a remark."""
         return self.number.value * self.si
 
     @property
@@ -421,7 +420,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         original = claim
         while original.same_as:
             original = located[original.same_as]
-        if claim.same_as:
+        if claim.same_as and claim.kind != "remark":
             claim = replace(claim, computed_by="same_as", rests_on={"value": claim.same_as})
         readings, inputs = {"": claim.computed_by, **claim.readings}, dict(claim.rests_on)
         if group := inputs.pop("group", None):
@@ -435,7 +434,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
             within=next(around, None),
             chosen=original.given == "choice",
-            bound=_bound(claim, located),
+            bound=claim.number.value if claim.relation else None,
         )
 
     # The printed equations
@@ -572,17 +571,12 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         copy.__dict__.update(claims=claims, sides=sides)
         if name in claims:
             claims[name] = replace(claims[name], text=text)
-            for claim in [claim for claim in claims.values() if name in (claim.id, claim.against)]:
-                claims[claim.id] = replace(claim, bound=_bound(claim, claims))
+            if claims[name].relation:
+                claims[name] = replace(claims[name], bound=claims[name].number.value)
         if equation:
             with suppress(EquationError):
                 sides[equation] = self.read(copy.printed_text(equation))
         return copy
-
-
-def _bound(claim: Claim, claims: Mapping[str, Claim]) -> Fraction | None:
-    """Return the number that a claim's relation compares with: its own or another claim's."""
-    return claims[claim.against or claim.id].number.value if claim.relation else None
 
 
 @cache

@@ -8,6 +8,13 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import current_thread, main_thread
 
+ENDING = [
+    getattr(signal, name)
+    for name in ("SIGINT", "SIGTERM", "SIGHUP")
+    if hasattr(signal, name)  # Windows has no SIGHUP
+]
+"""The signals with which somebody, or the system, ends a program."""
+
 
 @contextmanager
 def postponed_signals() -> Iterator[None]:
@@ -30,9 +37,8 @@ def postponed_signals() -> Iterator[None]:
         return
     received: list[int] = []
     handlers = {}
-    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
-        number = getattr(signal, name, None)  # Windows has no SIGHUP
-        if number is not None and signal.getsignal(number) not in (signal.SIG_IGN, None):
+    for number in ENDING:
+        if signal.getsignal(number) not in (signal.SIG_IGN, None):
             handlers[number] = signal.signal(number, lambda number, _: received.append(number))
     try:
         yield

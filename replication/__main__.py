@@ -1,5 +1,6 @@
 """The program `coldspray`, also run as `python -m replication` and `python -m coldspray`."""
 
+import signal
 import sys
 
 
@@ -9,11 +10,14 @@ def program() -> int:
     The imports take a third of a second, so that Ctrl-C may come before `main` can catch it.
     """
     try:
-        from reference.signals import postponed_signals
+        from reference.signals import ENDING, postponed_signals
 
         with postponed_signals():  # Python may turn one that comes during an import into an error
             from replication.cli import main
-        return main()
+        status = main()
+        for number in ENDING:  # all is done and said: Python only has to end
+            signal.signal(number, signal.SIG_IGN)
+        return status
     except KeyboardInterrupt:
         try:
             sys.stderr.write("coldspray: interrupted; no file is left in part\n")

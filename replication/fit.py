@@ -12,7 +12,6 @@ from pathlib import Path
 
 from replication.cases import INPUTS, OTHER_FACTOR, other_factor
 from replication.columns import Column, bad_rows, column_of, not_among, read_columns
-from replication.models import arrays
 from replication.models.depth import elasticities, final_depth
 from replication.models.impact import Impact, InputError
 from replication.reading import advice, printable, quoted, typed_unit
@@ -271,6 +270,8 @@ def _least_squares(measurements: Sequence[Measurement], uncertainties: Sequence[
 
 def _own_resistance(measurement: Measurement) -> float:
     """Return the resistance that a measurement gives by itself; errors name its line."""
+    from replication.models import arrays
+
     try:
         return float(arrays.resistance_for_depth(measurement.depth, *measurement.impact))
     except InputError as error:

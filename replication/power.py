@@ -8,9 +8,12 @@ The controls are harmless rewritings: the same number or equation, written in an
 that one of them changes is a false alarm.
 """
 
+import math
 import random
-from collections.abc import Callable, Iterable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from importlib import resources
+from statistics import NormalDist
 from typing import NamedTuple
 
 import msgspec
@@ -18,6 +21,7 @@ import msgspec
 from reference.ledger import INFERRED, Ledger
 from replication.audit.audit import Audit
 from replication.audit.explain import dependents, edits_of
+from replication.audit.record import Repair
 from replication.audit.rewritings import rewritings_of
 from replication.audit.verdict import disagreeing
 from replication.text import Table
@@ -57,13 +61,45 @@ class PlantCounts(msgspec.Struct, kw_only=True):
             setattr(self, name, getattr(self, name) + getattr(more, name))
 
 
+class MisprintJudged(NamedTuple):
+    """The outcome of a planted misprint: what fails only because of it, and the counts for it.
+
+    `first` is the first repair that the audit lists, if there is one. `why` says why that is not
+    the true text; it is empty if it is, and if nothing fails.
+    """
+
+    failing: set[str]
+    counts: PlantCounts
+    first: Repair | None = None
+    why: str = ""
+
+
+class NotFirst(msgspec.Struct, kw_only=True):
+    """A visible misprint whose true text is not named first: what is, and why.
+
+    `first_entry` and `first_text` are the first repair; both are empty if there is none.
+    """
+
+    entry: str
+    true: str
+    text: str
+    edit: str
+    first_entry: str
+    first_text: str
+    why: str
+
+
 class Power(PlantCounts, kw_only=True):
-    """The counts of a sample, in all, by kind of entry and by kind of edit; what is unnoticed."""
+    """The counts of a sample, in all, by kind of entry and by kind of edit.
+
+    Beside them stands what is unnoticed, and what is noticed and not repaired first.
+    """
 
     seed: int
     by_kind: dict[str, PlantCounts] = msgspec.field(default_factory=dict)
     by_edit: dict[str, PlantCounts] = msgspec.field(default_factory=dict)
     unnoticed: list[dict[str, str]] = msgspec.field(default_factory=list)
+    not_first: list[NotFirst] = msgspec.field(default_factory=list)
 
     def rates(self) -> Table:
         """Return the rates of the whole sample, with the 95 % interval of each (Wilson's)."""
@@ -76,6 +112,21 @@ class Power(PlantCounts, kw_only=True):
         ]
         rows = [(name, f"{k} of {n}", percent(k, n), interval(k, n)) for name, k, n in shares]
         return Table("Rates", ("", "cases", "percent", "95 % interval"), rows)
+
+    def reasons(self) -> Table:
+        """Return why the true text is not named first: how often, and in which entries."""
+        entries: dict[str, Counter[str]] = {}
+        for missed in self.not_first:
+            entries.setdefault(missed.why, Counter())[missed.entry] += 1
+        rows = [
+            (why, f"{names.total()} of {self.visible}", ", ".join(
+                f"`{name}`" if count == 1 else f"`{name}` ({count} times)"
+                for name, count in sorted(names.items(), key=lambda pair: (-pair[1], pair[0]))
+            ))
+            for why, names in sorted(entries.items(), key=lambda pair: (-pair[1].total(), pair[0]))
+        ]  # fmt: skip
+        caption = "Why the true text is not named first"
+        return Table(caption, ("", "cases", "where the misprint is"), rows)
 
     def table(self) -> Table:
         """Return rates in percent of the visible misprints, by kind of entry and of edit."""
@@ -117,10 +168,23 @@ def interval(k: int, n: int) -> str:
     """
     if not n:
         return "-"
-    from scipy.stats import binomtest  # here: the audit and its page in a browser do without it
+    low, high = wilson(k, n)
+    return f"{100 * low:.1f} to {100 * high:.1f}"
 
-    ends = binomtest(k, n).proportion_ci(method="wilson")
-    return f"{100 * ends.low:.1f} to {100 * ends.high:.1f}"
+
+def wilson(k: int, n: int) -> tuple[float, float]:
+    """Return the ends of Wilson's 95 % interval of a share, k of n.
+
+    They are the shares p that lie 1.96 of their own standard deviations from k/n: the roots of
+    (p - k/n)^2 = z^2 p (1 - p) / n. (SciPy has it, too, but takes a second to import.)
+
+    >>> [f"{end:.3f}" for end in wilson(372, 408)]
+    ['0.880', '0.936']
+    """
+    z = NormalDist().inv_cdf(0.975)
+    middle, half = k + z * z / 2, z * math.sqrt(k * (n - k) / n + z * z / 4)
+    # No share is below 0 or above 1, where rounding could put an end.
+    return max(0.0, (middle - half) / (n + z * z)), min(1.0, (middle + half) / (n + z * z))
 
 
 def measured_rates() -> Power:
@@ -169,11 +233,8 @@ def is_false_alarm(truth: Audit, control: Plant) -> bool:
     )
 
 
-def judge_misprint(truth: Audit, plant: Plant) -> tuple[set[str], PlantCounts]:
-    """Judge everything that depends on a planted misprint, and compare with the true report.
-
-    Returns what fails only because of the misprint, and the counts for it.
-    """
+def judge_misprint(truth: Audit, plant: Plant) -> MisprintJudged:
+    """Judge everything that depends on a planted misprint, and compare with the true report."""
     ledger = truth.ledger.misprint(plant.entry, plant.text)
     audit, claims = Audit(ledger, every_convention=False), dependents(truth.ledger, plant.entry)
     # Its own equation may fail, or one derived from that.
@@ -182,7 +243,7 @@ def judge_misprint(truth: Audit, plant: Plant) -> tuple[set[str], PlantCounts]:
     repairs = audit.explainer.ranked(sorted(failing))
     is_true = [(repair.entry, repair.text) == (plant.entry, plant.true) for repair in repairs]
     visible = bool(failing) or _is_visible(truth, ledger, claims)
-    return failing, PlantCounts(
+    counts = PlantCounts(
         planted=1,
         invisible=not visible,
         visible=visible,
@@ -191,6 +252,27 @@ def judge_misprint(truth: Audit, plant: Plant) -> tuple[set[str], PlantCounts]:
         repaired=any(is_true),
         repaired_first=any(is_true[:1]),
     )
+    first = next(iter(repairs), None)
+    missed = failing and not counts.repaired_first
+    return MisprintJudged(
+        failing, counts, first, why_not_first(truth, plant, repairs) if missed else ""
+    )
+
+
+def why_not_first(truth: Audit, plant: Plant, repairs: Sequence[Repair]) -> str:
+    """Return why the first repair of a misprint is not the true text."""
+    true = [r for r in repairs if (r.entry, r.text) == (plant.entry, plant.true)]
+    equation = truth.ledger.equation_of(plant.entry)
+    if not true:
+        if equation and truth.judge.assess_equation(equation).verdict.is_failure:
+            return "the equation fails in the true report, too, and no edit mends both faults"
+        return "no listed edit gives the true text"
+    first = repairs[0]
+    if len(first.failing) < len(true[0].failing):
+        return "another edit happens to leave less that fails"
+    if first.entry == plant.entry:
+        return "another text of the same entry agrees as well"
+    return "two entries disagree, and the other one is taken for wrong"
 
 
 def new_failures(
@@ -254,9 +336,13 @@ def measure_power(
         if plant in harmless:
             counts = PlantCounts(controls=1, false_alarms=is_false_alarm(truth, plant))
         else:
-            failing, counts = judge_misprint(truth, plant)
+            failing, counts, first, why = judge_misprint(truth, plant)
             if counts.visible and not failing:
                 result.unnoticed.append(plant._asdict())
+            if why:
+                entry, text = (first.entry, first.text) if first else ("", "")
+                shown = NotFirst(**plant._asdict(), first_entry=entry, first_text=text, why=why)
+                result.not_first.append(shown)
         kind = ledger.claims[plant.entry].kind if plant.entry in ledger.claims else "equation"
         by_kind = result.by_kind.setdefault(kind, PlantCounts())
         for total in (result, by_kind, result.by_edit.setdefault(plant.edit, PlantCounts())):

@@ -11,6 +11,7 @@ from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from importlib.metadata import version
+from importlib.util import find_spec
 from pathlib import Path
 from statistics import NormalDist
 from typing import Any
@@ -452,7 +453,12 @@ def sweep_provenance(plan: Plan) -> dict[str, str]:
 
 
 def check_output(path: Path) -> None:
-    """Raise ValueError for another suffix, and OSError as `check_target` does."""
+    """Raise ValueError for another suffix or if PyArrow is missing; OSError as `check_target`."""
     if path.suffix.lower() not in (".csv", ".parquet"):
         raise ValueError(f"{path}: the file's name must end in .csv or .parquet")
+    if find_spec("pyarrow") is None:
+        raise ValueError(
+            "PyArrow, which writes the rows, is not installed: "
+            "python -m pip install 'coldspray[sweep]'"
+        )
     check_target(path)

@@ -254,14 +254,20 @@ def _inputs(
         "inputs_unusable": 0,
         "inputs.choice": "yours",
         "inputs.no_choice": "",
-        "inputs.message": messages.CHANGED if changed else messages.UNCHANGED,
+        "inputs.chosen": "yours",
+        "inputs.unlike": "",
+        "inputs.message": (message := messages.CHANGED if changed else messages.UNCHANGED),
+        **_said_of(messages.INPUTS_SAY, message),
         **{page.resistance: sheet.impact.target_resistance for page, sheet in runs},
     }
     for entry, number in typed.items():
         name = entry.name
         unchanged = "as inferred" if name == "rho_t" else "the report’s"
         check = "yours" if name in changed else unchanged
-        values |= {name: si[name], f"{name}.typed": number, f"{name}.check": check}
+        values |= {name: si[name]}
+        values |= {f"{name}.{key}": number for key in ("typed", "number", "taken", "accepted")}
+        values |= {f"{name}.{key}": check for key in ("check", "whose")}
+        values |= {f"{name}.{key}": "" for key in ("below", "above", "fault")}
     return values
 
 
@@ -276,7 +282,11 @@ def _case_values(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree
     }
     quantities = {"label": page.label, **_results(sheet, si), **_exact(impact), **_state(sheet)}
     if page.coarse:
-        quantities["longer"] = impact.step > si["dt_s"]
+        quantities["longer"] = longer = impact.step > si["dt_s"]
+        quantities |= _state_and_words("finer", not longer, messages.NOT_COARSER)
+    if not page.resistance_given:
+        quantities["other_beta"] = False
+        quantities |= _state_and_words("renamed", False, messages.KEEPS_NAME)
     named = {f"{name}{page.suffix}": value for name, value in quantities.items()}
     return {page.part: repeated, **named}
 
@@ -320,20 +330,37 @@ def _state(sheet: Sheet) -> Tree:
         "too_long": too_long(travel),
         "too_deep": over_rest > 1 + DIGITS,
         "off_stop": abs(sheet.normalized_depth - stop) > OFF_STOP * stop,
-        "no_steps": sheet.steps == 0,
     }
-    doubts = sum(conditions.values())
+    no_steps = sheet.steps == 0
+    doubts = sum(conditions.values()) + no_steps
+    message = _message(sheet)
     return {
         "travel": travel,
         "over_rest": over_rest,
         "over_stop": sheet.normalized_depth / stop if stop else NOT_AVAILABLE,
         **conditions,
         "doubts": doubts,
+        "sound": 0 if doubts else 1,
         "reverses": "reversed" in kinds,
         "early": stop / rest < 1 - DIGITS,
         "trust": 0 if doubts else 1,
-        "message": _message(sheet),
+        "message": message,
+        "says_run": message,
+        **_said_of(messages.RUN_SAYS, message),
     }
+
+
+def _said_of(choices: Mapping[str, str], message: str) -> Tree:
+    """Return which of these words the message is, by name, and the words of this one only."""
+    values: Tree = {}
+    for name, words in choices.items():
+        values |= _state_and_words(name, words == message, words)
+    return values
+
+
+def _state_and_words(name: str, holds: bool, words: str) -> Tree:
+    """Return a state and what is said of it, which is nothing unless it holds."""
+    return {f"is_{name}": holds, f"says_{name}": words if holds else ""}
 
 
 def _message(sheet: Sheet) -> str:
@@ -545,6 +572,12 @@ def _solve(ledger: Ledger, runs: Runs) -> Tree:
     }
     solved = logarithm < inverse.LARGEST_LOGARITHM
     values["solve.message"] = messages.BY_DEPTH if solved else messages.TOO_DEEP
+    values |= {
+        "solved": solved,
+        **_state_and_words("for_depth", solved, messages.BY_DEPTH),
+        **_state_and_words("for_ratio", False, messages.BY_RATIO),
+        **_state_and_words("too_deep", not solved, messages.TOO_DEEP),
+    }
     resistance = inverse.resistance_for_depth(x, v, radius, particle, target)
     back = _without_steps(
         replace(shared, beta=None, flow_stress=None, resistance=resistance if solved else 1.0)
@@ -610,10 +643,12 @@ def live_verdicts(
         if claim.id not in plan.claims:
             continue
         value = values[plan.cells[plan.claims[claim.id]].key]
-        audit[claim.id] = {"computed": value, "verdict": _live_verdict(value, claim.interval())}
+        audit[claim.id] = {"computed": value, **_judged(value, claim.interval())}
         if claim.place.cell and claim.printed:
             difference = _difference(value, claim.printed, exact=claim.is_exact)
-            table[claim.place.cell] = audit[claim.id] | {"difference": difference}
+            table[claim.place.cell] = {
+                "computed": value, "verdict": audit[claim.id]["verdict"], "difference": difference
+            }  # fmt: skip
     verdicts = [judged["verdict"] for judged in audit.values()]
     counts = {name: verdicts.count(verdict) for verdict, name in LIVE_VERDICTS.items()}
     overview: Tree = dict(counts)
@@ -664,20 +699,32 @@ def _row_columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]
     return {name: [*column, *blank] for name, column in columns.items()}
 
 
-def _live_verdict(value: Value, interval: Interval) -> str:
-    """Return the live verdict on a double; the ends of the interval are taken as doubles, too."""
+def _judged(value: Value, interval: Interval) -> Tree:
+    """Return the live verdict on a double, and what it rests on, which is #N/A without a number."""
+    conditions = _compared(Fraction(value if isinstance(value, float) else 0.0), interval)
     if not isinstance(value, float):
-        return NOT_COMPUTED
+        not_available = dict.fromkeys(("number", *conditions, "prints_so"), NOT_AVAILABLE)
+        return {"verdict": NOT_COMPUTED, **not_available}
+    words = AS_PRINTED if all(conditions.values()) else OTHERWISE
+    return {"verdict": words, "prints_so": words, "number": value, **conditions}
+
+
+def _compared(number: Fraction, interval: Interval) -> dict[str, bool]:
+    """Return whether a number keeps to each end of an interval, by end; ends are as doubles."""
+    conditions = {}
     if interval.is_point:
         # To nine digits, since no double is exactly 2/3.
         (exact, _) = interval.ends
-        inside = abs(Fraction(value) - exact) * 10**9 <= abs(exact)
+        conditions["above"] = abs(number - exact) * 10**9 <= abs(exact)
     else:
-        ends = interval.lower, interval.upper
-        low, high = (None if end is None else Fraction(float(end)) for end in ends)
-        in_doubles = Interval(low, high, interval.lower_closed, interval.upper_closed)
-        inside = in_doubles.contains(Fraction(value))
-    return AS_PRINTED if inside else OTHERWISE
+        if interval.lower is not None:
+            low = Fraction(float(interval.lower))
+            conditions["above"] = Interval(low, None, interval.lower_closed).contains(number)
+        if interval.upper is not None:
+            high = Fraction(float(interval.upper))
+            at_most = Interval(None, high, upper_closed=interval.upper_closed)
+            conditions["below"] = at_most.contains(number)
+    return conditions
 
 
 def _difference(value: Value, printed: Printed, *, exact: bool) -> Value:

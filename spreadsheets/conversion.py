@@ -46,7 +46,7 @@ def converted(path: Path, folder: Path, most_cells: int) -> Path:
     ]  # fmt: skip
     for _ in range(2):  # the first run in a new profile may only ask to be started again
         try:
-            run_program(command, _SECONDS, _limit)
+            run_program(command, _SECONDS, _limit_resources)
         except subprocess.TimeoutExpired as error:
             reason = f"LibreOffice did not open it within {_SECONDS} s; save it as .xlsx"
             raise WorkbookError(reason) from error
@@ -82,7 +82,7 @@ def _repeated(element: ET.Element, attribute: str) -> int:
     return int(number)
 
 
-def _limit() -> None:
+def _limit_resources() -> None:
     """Limit memory, time and the size of files of the process that calls this."""
     import resource
 

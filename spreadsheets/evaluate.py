@@ -38,9 +38,9 @@ from spreadsheets.scalars import (
     Run,
     Scalar,
     Site,
+    as_number,
     as_text,
     compared,
-    number,
     power,
     scalar,
 )
@@ -55,7 +55,7 @@ MAX_FEW = 64
 """Cells of a range that are followed: a lookup of an input in a small list."""
 
 
-class Reference(NamedTuple):
+class CellReference(NamedTuple):
     """A reference in a shape: distances to the formula's own cell where `fixed` is False.
 
     `crossing`: a range where one value is wanted; it stands for the cell in the formula's own row
@@ -96,7 +96,7 @@ class Shape:
 
     key: str
     run: Run | None
-    references: tuple[Reference, ...] = ()
+    references: tuple[CellReference, ...] = ()
     literals: tuple[float, ...] = ()
     names: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     reason: str | None = None
@@ -174,7 +174,7 @@ def shape_key(text: str, row: int, column: int) -> str:
         if not (cell or columns or rows):
             return text
         if cell:
-            if _beyond(cell) or (to and _beyond(to)):
+            if _is_no_cell(cell) or (to and _is_no_cell(to)):
                 return text
             ends = end(cell) + ";" + end(to or cell) + (":" if to else "")
         elif columns:
@@ -188,10 +188,10 @@ def shape_key(text: str, row: int, column: int) -> str:
     return _A1.sub(relative, text)
 
 
-def written(key: str, row: int, column: int) -> str:
+def formula_text(key: str, row: int, column: int) -> str:
     """The formula of a shape as the cell at a row and a column shows it.
 
-    >>> written(shape_key("=A1+$B$2", 2, 1), 3, 1)
+    >>> formula_text(shape_key("=A1+$B$2", 2, 1), 3, 1)
     '=A2+$B$2'
     """
 
@@ -208,7 +208,7 @@ def written(key: str, row: int, column: int) -> str:
     return re.sub(f"{_OPEN}([^{_CLOSE}]*){_CLOSE}", shown, key)
 
 
-def _beyond(cell: str) -> bool:
+def _is_no_cell(cell: str) -> bool:
     """Whether a text such as YLD1048577 or ZZZ1 is no cell: then it is a name."""
     match = _CELL.fullmatch(cell)
     return match is None or int(match[4]) > LAST_ROW or column_number(match[2]) > LAST_COLUMN
@@ -235,10 +235,10 @@ class _Parser:
         self.tokens = list(self.read(key))
         self.sheet, self.book, self.within = sheet, book, within
         self.at = self.depth = self.size = 0
-        self.references: list[Reference] = []
+        self.references: list[CellReference] = []
         self.literals: list[float] = []
         self.names: dict[str, tuple[float, ...]] = {}
-        self.ranges: dict[Run, Reference] = {}
+        self.ranges: dict[Run, CellReference] = {}
 
     @staticmethod
     def read(key: str) -> Iterator[tuple[str, str]]:
@@ -268,7 +268,7 @@ class _Parser:
         self.references.remove(reference)
         crossing = reference._replace(crossing=True)
         self.references.append(crossing)
-        return _range(crossing)
+        return _run_of_range(crossing)
 
     def next(self, wanted: str = "") -> bool:
         """Whether the next token is this sign; it is then taken."""
@@ -308,7 +308,7 @@ class _Parser:
         if "@" in signs:
             run = self.crossed(run)
         while self.next("%"):
-            run = _binary("/", self.crossed(run), _constant(100.0))
+            run = _binary("/", self.crossed(run), _run_of_constant(100.0))
         if "-" not in signs:
             return run
         # Two minus signs make a number of a text or a truth value.
@@ -324,7 +324,7 @@ class _Parser:
             self.literals.append(value)
             return _literal(value, self.sheet, self.within, len(self.literals) - 1)
         if kind == "text":
-            return _constant(text[1:-1].replace('""', '"'))
+            return _run_of_constant(text[1:-1].replace('""', '"'))
         if kind == "error":
             return _failing(text)
         if kind == "area":
@@ -352,21 +352,21 @@ class _Parser:
                 raise NotComputedError(f"there is no sheet {named[:40]!r}")
             sheet = self.book.called[named.upper()]
         first, last = _END.findall(ends)
-        reference = Reference(
+        reference = CellReference(
             sheet, (int(first[1]), int(last[1])), (int(first[3]), int(last[3])),
             (not first[0], not first[2], not last[0], not last[2]),
         )  # fmt: skip
         self.references.append(reference)
         if not ends.endswith(":"):
-            return _cell(reference)
-        run = _range(reference)
+            return _run_of_cell(reference)
+        run = _run_of_range(reference)
         self.ranges[run] = reference
         return run
 
     def name(self, text: str) -> Run:
         upper = text.upper()
         if upper in ("TRUE", "FALSE"):
-            return _constant(upper == "TRUE")
+            return _run_of_constant(upper == "TRUE")
         own = f"'{self.sheet}'!{text}".upper()
         meaning = self.book.meanings.get(own, self.book.meanings.get(upper))
         bare = upper.rpartition("!")[2]
@@ -409,7 +409,7 @@ class _Parser:
         return FUNCTIONS[name](name, arguments)
 
 
-def parse(text: str, sheet: str, book: Book, key: str) -> Shape:
+def parse_formula(text: str, sheet: str, book: Book, key: str) -> Shape:
     """Compile the formula with this key; one that cannot be computed here has a reason."""
     if len(text) > MAX_FORMULA:
         return Shape(key, None, reason=f"it has more than {MAX_FORMULA:,} characters")
@@ -426,7 +426,7 @@ def parse(text: str, sheet: str, book: Book, key: str) -> Shape:
 # ---- compiled parts
 
 
-def _constant(value: Scalar) -> Run:
+def _run_of_constant(value: Scalar) -> Run:
     return lambda _: value
 
 
@@ -449,7 +449,7 @@ def _literal(value: float, sheet: str, within: tuple[str, ...], index: int) -> R
     return run
 
 
-def _cell(reference: Reference) -> Run:
+def _run_of_cell(reference: CellReference) -> Run:
     sheet, (row_step, _), (column_step, _), (fixed_row, fixed_column, _, _), _ = reference
 
     def run(at: "Site") -> object:
@@ -462,16 +462,16 @@ def _cell(reference: Reference) -> Run:
     return run
 
 
-def _range(reference: Reference) -> Run:
+def _run_of_range(reference: CellReference) -> Run:
     return lambda at: reference.at(at.row, at.column)
 
 
 def _negative(run: Run) -> Run:
-    return lambda at: -number(run(at), at)
+    return lambda at: -as_number(run(at), at)
 
 
 def _number_of(run: Run) -> Run:
-    return lambda at: number(run(at), at)
+    return lambda at: as_number(run(at), at)
 
 
 def _binary(sign: str, left: Run, right: Run) -> Run:
@@ -482,7 +482,7 @@ def _binary(sign: str, left: Run, right: Run) -> Run:
     function = _ARITHMETIC[sign]
 
     def run(at: "Site") -> object:
-        result = function(number(left(at), at), number(right(at), at))
+        result = function(as_number(left(at), at), as_number(right(at), at))
         if result - result != 0:
             raise CellError("#NUM!")
         return result
@@ -548,7 +548,7 @@ class Evaluator:
         key = shape_key(text, row, column) if len(text) <= MAX_FORMULA else text
         shape = self._shapes.get((sheet, key))
         if shape is None:
-            shape = self._shapes[sheet, key] = parse(text, sheet, self.book, key)
+            shape = self._shapes[sheet, key] = parse_formula(text, sheet, self.book, key)
         return shape
 
     def used(self, area: Area) -> Area:
@@ -558,6 +558,11 @@ class Evaluator:
             bottom=max(min(area.bottom, rows), area.top),
             right=max(min(area.right, columns), area.left),
         )
+
+    def has_subtotal(self, place: Position) -> bool:
+        """Whether a cell has a formula with SUBTOTAL, which other subtotals leave out."""
+        shape = self.formulas.get(place)
+        return shape is not None and "SUBTOTAL(" in shape.key.upper()
 
     def areas(self, place: Position) -> list[Area]:
         """The areas that the formula of a cell refers to; none for a cell without a formula."""

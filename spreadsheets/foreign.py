@@ -74,7 +74,7 @@ _LIMITS = f"this program reads up to {MAX_CELLS:,} cells and {MAX_FORMULAS:,} fo
 _WANTED = "give an .xlsx or .xlsm file without a password"
 
 
-class Cell(NamedTuple):
+class StoredCell(NamedTuple):
     """The formula of a cell, with its "=", and its stored value; either is None if absent.
 
     `error`: the value is an error, not a text that spells one. `array`: the first row and column
@@ -101,7 +101,7 @@ class Book:
     """
 
     path: Path
-    sheets: Mapping[str, Mapping[tuple[int, int], Cell]]
+    sheets: Mapping[str, Mapping[tuple[int, int], StoredCell]]
     names: Mapping[str, str]
     notes: tuple[str, ...] = ()
     resolution: float = 0.0
@@ -117,7 +117,7 @@ class Book:
         """Whether it was read from a text file, in which cells have lines and columns."""
         return self.heads is not None
 
-    def __getitem__(self, position: Position) -> Cell:
+    def __getitem__(self, position: Position) -> StoredCell:
         sheet, row, column = position
         return self.sheets[sheet].get((row, column), _BLANK)
 
@@ -139,14 +139,14 @@ class Book:
             for name, cells in self.sheets.items()
         }
 
-    def cells(self) -> Iterator[tuple[Position, Cell]]:
+    def cells(self) -> Iterator[tuple[Position, StoredCell]]:
         """Every cell that is not blank."""
         for sheet, cells in self.sheets.items():
             for (row, column), cell in cells.items():
                 yield (sheet, row, column), cell
 
 
-_BLANK = Cell(None, None)
+_BLANK = StoredCell(None, None)
 
 
 def without_zeros(book: Book) -> Book:
@@ -169,12 +169,12 @@ def read(path: Path) -> Book:
     of this module; OSError if it cannot be opened.
     """
     try:
-        return _read(path)
+        return _read_book(path)
     except WorkbookError as error:
         raise WorkbookError(f"{path}: {error}") from error
 
 
-def _read(path: Path) -> Book:
+def _read_book(path: Path) -> Book:
     if not path.is_file():
         kind = "this is a folder" if path.is_dir() else "this is not a regular file"
         if not path.exists():
@@ -184,7 +184,7 @@ def _read(path: Path) -> Book:
         raise WorkbookError(f"has more than {MAX_FILE >> 20} MB; {_LIMITS}")
     if _is_xlsx(path):
         with open_archive(path) as archive:
-            return _Reader(Package(archive), path).book()
+            return _BookReader(Package(archive), path).book()
     if path.suffix.lower() not in FORMATS:
         with path.open("rb") as file:
             start = file.read(len(_OLE_START))
@@ -198,7 +198,7 @@ def _read(path: Path) -> Book:
         TemporaryDirectory(prefix="coldspray-") as folder,
         open_archive(converted(path, Path(folder), MAX_CELLS)) as archive,
     ):
-        book = _Reader(Package(archive), path).book()
+        book = _BookReader(Package(archive), path).book()
     note = f"{path.suffix} file read by way of LibreOffice, which may have recalculated it"
     resolution = _ODS_RESOLUTION if path.suffix.lower() == ".ods" else 0.0
     return replace(book, notes=(note, *book.notes), resolution=resolution)
@@ -233,7 +233,7 @@ _NOTES = {
 }
 
 
-class _Reader:
+class _BookReader:
     """Read the parts of one file, within one budget of cells and formulas."""
 
     def __init__(self, package: Package, path: Path) -> None:
@@ -256,8 +256,8 @@ class _Reader:
         strings = next((to for kind, to in related.values() if kind == "sharedStrings"), None)
         texts: list[str] = []
         if strings is not None:
-            package.stream(strings, si=lambda string: texts.append(_text(string)))
-        sheets: dict[str, dict[tuple[int, int], Cell]] = {}
+            package.stream(strings, si=lambda string: texts.append(_string_text(string)))
+        sheets: dict[str, dict[tuple[int, int], StoredCell]] = {}
         hidden: dict[str, frozenset[int]] = {}
         listed = tree.findall("{*}sheets/{*}sheet")
         names = [attribute(sheet, "name", main) for sheet in listed]
@@ -274,7 +274,7 @@ class _Reader:
                 sheets[name], hidden[name] = sheet.complete(), frozenset(sheet.hidden)
         if not sheets:
             raise WorkbookError("has no worksheet")
-        meanings = _names(tree, names, main)
+        meanings = _defined_names(tree, names, main)
         return Book(
             self.path, sheets, meanings, tuple(notes), columns=self.columns, hidden=hidden,
             date1904=self.date1904, as_displayed=as_displayed,
@@ -290,7 +290,7 @@ class _Reader:
             name, ref = (attribute(tree, key, part) for key in ("displayName", "ref"))
             left, top, _, bottom = _corners(ref, f"the table {name!r}")
             heads, totals = (
-                _whole_number(tree.get(key, default), f"{key} of {name!r}")
+                _index_number(tree.get(key, default), f"{key} of {name!r}")
                 for key, default in (("headerRowCount", "1"), ("totalsRowCount", "0"))
             )
             columns = {
@@ -307,14 +307,14 @@ class _Reader:
         return tables
 
 
-def _names(tree: ET.Element, sheets: list[str], part: str) -> dict[str, str]:
+def _defined_names(tree: ET.Element, sheets: list[str], part: str) -> dict[str, str]:
     """The defined names, with what each stands for; one of a single sheet is 'Sheet'!name."""
     meanings: dict[str, str] = {}
     for entry in tree.iterfind("{*}definedNames/{*}definedName"):
         name, scope = attribute(entry, "name", part), entry.get("localSheetId")
         if entry.text and not name.startswith("_xlnm."):
             if scope is not None:
-                number = _whole_number(scope, f"the sheet of the name {name!r}", len(sheets))
+                number = _index_number(scope, f"the sheet of the name {name!r}", len(sheets))
                 name = f"'{sheets[number]}'!{name}"
             meanings[name] = entry.text[:MAX_FORMULA]
     return meanings
@@ -326,7 +326,7 @@ def _is_set(element: ET.Element | None, key: str, default: str = "0") -> bool:
     return text.strip().lower() in ("1", "true", "on")
 
 
-def _whole_number(text: str, what: str, below: int = LAST_ROW + 1) -> int:
+def _index_number(text: str, what: str, below: int = LAST_ROW + 1) -> int:
     """Read a whole number from 0 to less than `below`; `what` says what it is, for the message."""
     if not (re.fullmatch(r"\s*\d{1,9}\s*", text) and int(text) < below):
         raise damaged(f"{what} is {text[:20]!r} and must be a whole number below {below}")
@@ -341,7 +341,7 @@ def _corners(cells: str, what: str) -> tuple[int, ...]:
         raise damaged(f"{what} stands in {cells[:20]!r}, which is no range of cells") from error
 
 
-def _text(string: ET.Element) -> str:
+def _string_text(string: ET.Element) -> str:
     """The text of a string in one or several pieces, without phonetic guides."""
     pieces = (piece for part in string if name_of(part) != "rPh" for piece in part.iter())
     return _unescaped("".join(piece.text or "" for piece in pieces if name_of(piece) == "t"))
@@ -377,9 +377,9 @@ class _Translator(Translator):
 class _Sheet:
     """Collect the cells of a worksheet, row by row."""
 
-    def __init__(self, reader: _Reader, name: str, texts: list[str], tables: _Tables) -> None:
+    def __init__(self, reader: _BookReader, name: str, texts: list[str], tables: _Tables) -> None:
         self.reader, self.name, self.texts, self.tables = reader, name, texts, tables
-        self.cells: dict[tuple[int, int], Cell] = {}
+        self.cells: dict[tuple[int, int], StoredCell] = {}
         self.hidden: set[int] = set()
         self.masters: dict[str, tuple[str, str]] = {}
         self.translators: dict[str, _Translator] = {}
@@ -395,7 +395,7 @@ class _Sheet:
     def take_row(self, row: ET.Element) -> None:
         """Read the cells of a row."""
         number = row.get("r", str(self.row + 1))
-        self.row, self.column = _whole_number(number, f"the number of a row of {self.name!r}"), 0
+        self.row, self.column = _index_number(number, f"the number of a row of {self.name!r}"), 0
         if _is_set(row, "hidden"):
             self.hidden.add(self.row)
         for cell in row:
@@ -421,7 +421,7 @@ class _Sheet:
         self.reader.formulas += formula is not None
         if self.reader.cells > MAX_CELLS or self.reader.formulas > MAX_FORMULAS:
             raise too_much(f"it has too many cells; {_LIMITS}")
-        self.cells[self.row, self.column] = Cell(formula, value, kind == "e")
+        self.cells[self.row, self.column] = StoredCell(formula, value, kind == "e")
 
     def formula(self, element: ET.Element) -> str | None:
         """The formula of a cell; one that it shares with another is filled into this cell."""
@@ -482,14 +482,14 @@ class _Sheet:
     def value(self, kind: str, parts: Mapping[str, ET.Element]) -> Value | None:
         """The stored value of a cell, by its kind and its child elements."""
         if kind == "inlineStr":
-            return (_text(parts["is"]) if "is" in parts else "") or None
+            return (_string_text(parts["is"]) if "is" in parts else "") or None
         text = (parts["v"].text if "v" in parts else None) or ""
         if not text:  # an empty text is the value of a formula, but a blank cell otherwise
             return "" if kind == "str" and parts.keys() >= {"f", "v"} else None
         match kind:
             case "s":
                 what = f"the number of the shared text in {self.name}!{self.address}"
-                return self.texts[_whole_number(text, what, len(self.texts))] or None
+                return self.texts[_index_number(text, what, len(self.texts))] or None
             case "b":
                 return text.strip() not in ("0", "false")
             case "str":
@@ -506,7 +506,7 @@ class _Sheet:
         # Some writers store nan or inf, which no engine reads: it counts as no value.
         return number if math.isfinite(number) else None
 
-    def complete(self) -> dict[tuple[int, int], Cell]:
+    def complete(self) -> dict[tuple[int, int], StoredCell]:
         """The cells, with the formula that it shares in every cell that was read before it."""
         for index, places in self.waiting.items():
             if index not in self.masters:

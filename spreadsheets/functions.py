@@ -7,6 +7,7 @@ numbers; a number given directly may also be a text of digits or a truth value.
 import math
 from collections.abc import Callable, Iterator, Sequence
 
+from reference.units import UnitError, same_dimension, to_si
 from spreadsheets.scalars import (
     Area,
     CellError,
@@ -16,9 +17,9 @@ from spreadsheets.scalars import (
     Run,
     Scalar,
     Site,
+    as_number,
     compared,
     finite,
-    number,
     power,
     scalar,
 )
@@ -50,7 +51,7 @@ def count_arguments(name: str, arguments: Arguments, least: int, most: int) -> N
 # ---- functions of numbers
 
 
-def _logarithm(x: float, base: float = 10.0) -> float:
+def _excel_log(x: float, base: float = 10.0) -> float:
     if x <= 0 or base <= 0:
         raise CellError("#NUM!")
     if base == 10:
@@ -99,7 +100,7 @@ def _truncated(x: float, digits: float = 0.0) -> float:
     return math.trunc(_to_fifteen_digits(x * scale)) / scale
 
 
-def _up(x: float, digits: float = 0.0) -> float:
+def _rounded_up(x: float, digits: float = 0.0) -> float:
     scale = 10.0 ** max(-300, min(300, int(digits)))
     return math.copysign(math.ceil(_to_fifteen_digits(abs(x) * scale)), x) / scale
 
@@ -139,9 +140,9 @@ NUMERIC: dict[str, tuple[Callable[..., float], int, int]] = {
     "ATAN": (math.atan, 1, 1), "ATAN2": (_atan2, 2, 2), "CEILING": (_ceiling, 1, 2),
     "COS": (math.cos, 1, 1), "COSH": (math.cosh, 1, 1), "DEGREES": (math.degrees, 1, 1),
     "EXP": (math.exp, 1, 1), "FLOOR": (_floor, 1, 2), "INT": (_int, 1, 1), "LN": (_ln, 1, 1),
-    "LOG": (_logarithm, 1, 2), "LOG10": (_logarithm, 1, 1), "MOD": (_mod, 2, 2), "PI": (_pi, 0, 0),
+    "LOG": (_excel_log, 1, 2), "LOG10": (_excel_log, 1, 1), "MOD": (_mod, 2, 2), "PI": (_pi, 0, 0),
     "POWER": (power, 2, 2), "RADIANS": (math.radians, 1, 1), "ROUND": (_rounded, 1, 2),
-    "ROUNDDOWN": (_truncated, 1, 2), "ROUNDUP": (_up, 1, 2), "SIGN": (_sign, 1, 1),
+    "ROUNDDOWN": (_truncated, 1, 2), "ROUNDUP": (_rounded_up, 1, 2), "SIGN": (_sign, 1, 1),
     "SIN": (math.sin, 1, 1), "SINH": (math.sinh, 1, 1), "SQRT": (_sqrt, 1, 1),
     "TAN": (math.tan, 1, 1), "TANH": (math.tanh, 1, 1), "TRUNC": (_truncated, 1, 2),
 }  # fmt: skip
@@ -156,7 +157,7 @@ def _numeric(name: str, arguments: Arguments) -> Run:
         return lambda _: constant
 
     def run(at: Site) -> object:
-        numbers = (0.0 if a is None else number(a(at), at)
+        numbers = (0.0 if a is None else as_number(a(at), at)
                    for a in arguments)  # fmt: skip
         return finite(float(function(*numbers)))
 
@@ -166,14 +167,14 @@ def _numeric(name: str, arguments: Arguments) -> Run:
 # ---- functions of many values
 
 
-def _numbers(name: str, arguments: Arguments, at: Site) -> list[float]:
+def _numbers_among(name: str, arguments: Arguments, at: Site) -> list[float]:
     """All numbers among the arguments and in their ranges."""
     numbers: list[float] = []
     for argument in arguments:
         value = 0.0 if argument is None else argument(at)
         area = area_of(value)
         if area is None:
-            numbers.append(number(value, at))
+            numbers.append(as_number(value, at))
             continue
         for cell in cells_of(area, at):
             if type(cell) is float:
@@ -188,7 +189,11 @@ def _average(numbers: list[float]) -> float:
 
 
 def _sum(numbers: list[float]) -> float:
-    return float(sum(numbers))
+    """The sum from left to right, which Python's own `sum` compensates from version 3.12 on."""
+    total = 0.0
+    for x in numbers:
+        total += x
+    return total
 
 
 def _largest(numbers: list[float]) -> float:
@@ -208,7 +213,7 @@ def _product(numbers: list[float]) -> float:
 
 
 def _squares(numbers: list[float]) -> float:
-    return float(sum(x * x for x in numbers))
+    return _sum([x * x for x in numbers])
 
 
 def _median(numbers: list[float]) -> float:
@@ -243,11 +248,64 @@ def _aggregate(name: str, arguments: Arguments) -> Run:
             if isinstance(area, Area):  # often the same range in every row
                 known = at.evaluator.aggregates
                 if (name, area) not in known:
-                    known[name, area] = finite(function(_numbers(name, arguments, at)))
+                    known[name, area] = finite(function(_numbers_among(name, arguments, at)))
                 return known[name, area]
-        return finite(function(_numbers(name, arguments, at)))
+        return finite(function(_numbers_among(name, arguments, at)))
 
     return run
+
+
+_SUBTOTALS = ("AVERAGE", "COUNT", "COUNTA", "MAX", "MIN", "PRODUCT", "STDEV", "", "SUM")
+"""What SUBTOTAL computes by its first argument, from 1 on; STDEVP, 8, is not among them."""
+_WITHOUT_HIDDEN = 100
+"""By so much the first argument is larger if rows that somebody hid are to be left out."""
+
+
+def _subtotal(name: str, arguments: Arguments) -> Run:
+    """SUBTOTAL, which leaves out other subtotals and, from 101 on, hidden rows.
+
+    Below 101 it leaves out the rows that a filter hides, and those only: which do, a file does not
+    say.
+    """
+    count_arguments(name, arguments, 2, 255)
+
+    def run(at: Site) -> object:
+        code = _whole(arguments[0], at)
+        kind = code - _WITHOUT_HIDDEN if code > _WITHOUT_HIDDEN else code
+        if not 1 <= kind <= len(_SUBTOTALS) or not _SUBTOTALS[kind - 1]:
+            raise NotComputedError(f"it uses SUBTOTAL({code}, ...)")
+        areas = [area_of(argument(at)) if argument else None for argument in arguments[1:]]
+        cells = [
+            cell
+            for area in areas
+            for cell in _shown_cells(area, at, without_hidden=code > _WITHOUT_HIDDEN)
+        ]
+        if _SUBTOTALS[kind - 1] == "COUNTA":
+            return float(sum(cell is not None for cell in cells))
+        for cell in cells:
+            if type(cell) is Error and kind != 2:
+                raise CellError(cell)
+        numbers = [cell for cell in cells if type(cell) is float]
+        return finite(AGGREGATES[_SUBTOTALS[kind - 1]](numbers))
+
+    return run
+
+
+def _shown_cells(area: Area | None, at: Site, *, without_hidden: bool) -> Values:
+    """The values of a range without those of other subtotals, and without hidden rows."""
+    if area is None:
+        raise NotComputedError("it uses SUBTOTAL of more than ranges")
+    evaluator = at.evaluator
+    used = evaluator.used(area)
+    hidden = evaluator.book.hidden.get(area.sheet, frozenset())
+    if hidden and not without_hidden and not hidden.isdisjoint(range(used.top, used.bottom + 1)):
+        raise NotComputedError("it uses SUBTOTAL of hidden rows, which a filter may leave out")
+    at.spend(used.cells)
+    return [
+        at.value(place)
+        for place in used.places()
+        if place[1] not in hidden and not evaluator.has_subtotal(place)
+    ]
 
 
 def _counting(name: str, arguments: Arguments) -> Run:
@@ -380,7 +438,7 @@ def _is(name: str, arguments: Arguments) -> Run:
     return run
 
 
-def _n(name: str, arguments: Arguments) -> Run:
+def _to_number(name: str, arguments: Arguments) -> Run:
     count_arguments(name, arguments, 1, 1)
     (argument,) = arguments
 
@@ -407,7 +465,7 @@ def _choose(name: str, arguments: Arguments) -> Run:
     index, *choices = arguments
 
     def run(at: Site) -> object:
-        n = int(number(index(at) if index else 0.0, at))
+        n = int(as_number(index(at) if index else 0.0, at))
         if not 1 <= n <= len(choices):
             raise CellError("#VALUE!")
         choice = choices[n - 1]
@@ -419,7 +477,7 @@ def _choose(name: str, arguments: Arguments) -> Run:
 # ---- references
 
 
-def _place(name: str, arguments: Arguments) -> Run:
+def _row_or_column(name: str, arguments: Arguments) -> Run:
     """ROW, COLUMN, ROWS and COLUMNS."""
     count_arguments(name, arguments, 0 if name in ("ROW", "COLUMN") else 1, 1)
 
@@ -448,7 +506,7 @@ def _area_argument(argument: Run | None, at: Site) -> Area:
 
 
 def _whole(argument: Run | None, at: Site, missing: int = 0) -> int:
-    return missing if argument is None else int(number(argument(at), at))
+    return missing if argument is None else int(as_number(argument(at), at))
 
 
 def _index(name: str, arguments: Arguments) -> Run:
@@ -500,7 +558,7 @@ def _some(area: Area, at: Site) -> Iterator[tuple[str, int, int]]:
     return used.places()
 
 
-def _line(area: Area, at: Site) -> Values:
+def _line_values(area: Area, at: Site) -> Values:
     """The values of one row or column, as far as the sheet uses it."""
     if area.top != area.bottom and area.left != area.right:
         raise CellError("#N/A")
@@ -548,7 +606,7 @@ def _match(name: str, arguments: Arguments) -> Run:
     def run(at: Site) -> object:
         wanted, area = _searched(arguments, at)
         kind = _whole(arguments[2], at) if len(arguments) > 2 else 1
-        return float(_found(wanted, _line(area, at), kind) + 1)
+        return float(_found(wanted, _line_values(area, at), kind) + 1)
 
     return run
 
@@ -559,7 +617,7 @@ def _lookup(name: str, arguments: Arguments) -> Run:
     def run(at: Site) -> object:
         wanted, area = _searched(arguments, at)
         result = _area_argument(arguments[2], at) if len(arguments) > 2 else area
-        values = _line(area, at)
+        values = _line_values(area, at)
         if isinstance(wanted, float):  # sorted or not, the last number not above it
             best = [i for i, v in enumerate(values) if type(v) is float and v <= wanted]
             if not best:
@@ -582,7 +640,7 @@ def _vlookup(name: str, arguments: Arguments) -> Run:
             near = last is not None and truth(scalar(last(at), at))
         down = name == "VLOOKUP"
         searched = area._replace(right=area.left) if down else area._replace(bottom=area.top)
-        index = _found(wanted, _line(searched, at), int(near))
+        index = _found(wanted, _line_values(searched, at), int(near))
         if number_of < 1:
             raise CellError("#VALUE!")
         if number_of > (area.right - area.left if down else area.bottom - area.top) + 1:
@@ -698,12 +756,35 @@ def _sumproduct(name: str, arguments: Arguments) -> Run:
     return run
 
 
+_OTHER_NAMES = {"lbm": "lb", "sec": "s", "p": "Pa"}
+"""Units that spreadsheets call otherwise than `reference.units` does."""
+
+
+def _convert(name: str, arguments: Arguments) -> Run:
+    """CONVERT, between units that `reference.units` knows."""
+    count_arguments(name, arguments, 3, 3)
+
+    def run(at: Site) -> object:
+        x, *units = (0.0 if a is None else scalar(a(at), at) for a in arguments)
+        own, wanted = (_OTHER_NAMES.get(str(unit), str(unit)) for unit in units)
+        try:
+            alike = same_dimension(own, wanted)
+            factor = to_si(own) / to_si(wanted)
+        except UnitError as error:
+            raise NotComputedError(f"it converts {own[:20]} to {wanted[:20]}") from error
+        if not alike:
+            raise CellError("#N/A")
+        return finite(as_number(x, at) * float(factor))
+
+    return run
+
+
 def _ranked(name: str, arguments: Arguments) -> Run:
     """LARGE and SMALL."""
     count_arguments(name, arguments, 2, 2)
 
     def run(at: Site) -> object:
-        numbers = sorted(_numbers(name, arguments[:1], at), reverse=name == "LARGE")
+        numbers = sorted(_numbers_among(name, arguments[:1], at), reverse=name == "LARGE")
         k = _whole(arguments[1], at)
         if not 1 <= k <= len(numbers):
             raise CellError("#NUM!")
@@ -722,15 +803,15 @@ FUNCTIONS: dict[str, Callable[[str, Arguments], Run]] = {
     ),
     **dict.fromkeys(("IFERROR", "IFNA"), _iferror),
     **dict.fromkeys(("TRUE", "FALSE"), _truth_value),
-    **dict.fromkeys(("ROW", "COLUMN", "ROWS", "COLUMNS"), _place),
+    **dict.fromkeys(("ROW", "COLUMN", "ROWS", "COLUMNS"), _row_or_column),
     **dict.fromkeys(("VLOOKUP", "HLOOKUP"), _vlookup),
     **dict.fromkeys(("LARGE", "SMALL"), _ranked),
     **dict.fromkeys(
         ("AVERAGEIF", "COUNTIF", "COUNTIFS", "MAXIFS", "MINIFS", "SUMIF", "SUMIFS"), _conditional
     ),
     "CHOOSE": _choose, "IF": _if, "IFS": _ifs, "INDEX": _index, "LOOKUP": _lookup,
-    "MATCH": _match, "N": _n, "NA": _na, "NOT": _not, "OFFSET": _offset,
-    "SUMPRODUCT": _sumproduct,
+    "MATCH": _match, "N": _to_number, "NA": _na, "NOT": _not, "OFFSET": _offset,
+    "CONVERT": _convert, "SUBTOTAL": _subtotal, "SUMPRODUCT": _sumproduct,
 }  # fmt: skip
 """Every function that is computed here, by its name."""
 

@@ -72,11 +72,11 @@ class Package:
         self.archive = archive
         self.parts: dict[str, zipfile.ZipInfo] = {}
         for member in members:
-            self.parts.setdefault(_key(member.filename), member)
+            self.parts.setdefault(_part_key(member.filename), member)
         self.bytes_left, self.events_left = MAX_UNPACKED, MAX_EVENTS
 
     def __contains__(self, part: str) -> bool:
-        return _key(part) in self.parts
+        return _part_key(part) in self.parts
 
     def relations(self, part: str) -> dict[str, tuple[str, str]]:
         """The parts that a part refers to, each with its kind, by the identity of the reference."""
@@ -105,7 +105,7 @@ class Package:
     def chunks(self, part: str) -> Iterator[bytes]:
         """Unpack a part, counting the bytes that come out."""
         try:
-            with self.archive.open(self.parts[_key(part)]) as stream:
+            with self.archive.open(self.parts[_part_key(part)]) as stream:
                 while chunk := stream.read(_CHUNK):
                     self.bytes_left -= len(chunk)
                     if self.bytes_left < 0:
@@ -135,7 +135,7 @@ class Package:
             raise damaged(f"its part {part} is not valid XML: {error}") from error
 
 
-def _key(part: str) -> str:
+def _part_key(part: str) -> str:
     """The name of a part as names are compared."""
     return part.replace("\\", "/").lstrip("/").lower()
 

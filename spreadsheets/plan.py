@@ -24,8 +24,11 @@ NOT_COMPUTED = "not computed"
 NOT_AVAILABLE = "#N/A"
 """The value of a cell that depends on an input that cannot be used, or on rows that are missing."""
 
-ROW_HEIGHT = 13.5
+ROW_HEIGHT = 12.75
 """Height of a row in points, for type of 10 points."""
+
+YES_OR_NO = '"yes";;"no"'
+"""The number format that shows 1 as yes, and 0 as no."""
 
 HOME = "Overview"
 """The first sheet; every other sheet has a link back to it."""
@@ -150,8 +153,8 @@ class SheetPlan:
     about: what the sheet shows, for `Overview`. row: where the next cells go. columns: those of
     symbol, meaning, value, unit, printed text and source in a `line`. headed: the first column that
     scrolls, and the first and last row of heads; heads do not scroll, and are repeated on every
-    printed page. page_break: the last row of page 1. portrait, one_page: how it is printed; the
-    columns always fit the width of a page. filtered: the cells of a table that has a filter.
+    printed page. portrait, one_page: how it is printed; the columns always fit the width of a
+    page. filtered: the cells of a table that has a filter.
     claims: the address of the cell that computes a claim, by the claim's id.
     """
 
@@ -166,7 +169,6 @@ class SheetPlan:
     rules: list[Rule] = field(default_factory=list)
     chart: Chart | None = None
     print_area: str = ""
-    page_break: int | None = None
     portrait: bool = False
     one_page: bool = False
     filtered: str = ""
@@ -241,6 +243,16 @@ class SheetPlan:
         self.claims |= dict.fromkeys(computed, f"{self.columns[2]}{self.row}")
         value = formula(name, expression, named=True, unit=unit, shown=shown, like=like)
         self._line(symbol, meaning, value, claim or beside, source)
+
+    def state(self, name: str, meaning: str, expression: str, words: str) -> None:
+        """Add a line for a state that holds (1) or not (0), and what is said while it holds.
+
+        The two cells are named `is_` and `says_`, and then `name`. The chain of all cells that say
+        something is the message of the sheet; only one of them is not blank.
+        """
+        says = formula(f"says_{name}", f'=IF(is_{name}=1,"{words}","")', "text", named=True)
+        self.cells[f"{self.columns[5]}{self.row}"] = says
+        self.line(f"is_{name}", "", meaning, expression, shown=YES_OR_NO)
 
     def repeat(
         self, key: str, symbol: str, meaning: str, name: str, unit: str = "1", *,

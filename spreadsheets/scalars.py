@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping
 from typing import NamedTuple, Protocol
 
-from spreadsheets.foreign import Position
+from spreadsheets.foreign import Book, Position
 
 MAX_WORK = 8_000_000
 """How many cells all ranges of all formulas may have together: some seconds."""
@@ -96,13 +96,13 @@ def scalar(value: object, at: "Site") -> Scalar:
     if isinstance(value, One):
         value = at.value(value)
     elif isinstance(value, Area):
-        value = at.value(_crossing(value, at))
+        value = at.value(_crossed_cell(value, at))
     if type(value) is Error:
         raise CellError(value)
     return value  # type: ignore[return-value]  # what is no reference is a scalar
 
 
-def _crossing(area: Area, at: "Site") -> Position:
+def _crossed_cell(area: Area, at: "Site") -> Position:
     """The cell of a row or column that stands for it at a site."""
     sheet, top, left, bottom, right = area
     if top == bottom and left == right:
@@ -117,7 +117,7 @@ def _crossing(area: Area, at: "Site") -> Position:
 _NUMBER = re.compile(r"\s*[-+]?(?:\d+\.?\d*|\.\d+)(?:[Ee][-+]?\d{1,3})?\s*(%?)\s*")
 
 
-def number(given: object, at: "Site") -> float:
+def as_number(given: object, at: "Site") -> float:
     """One number, as arithmetic takes it: a blank is 0, a text of digits the number."""
     value = given if type(given) is float else scalar(given, at)
     if type(value) is float:
@@ -161,7 +161,7 @@ def as_text(value: Scalar) -> str:
     return f"{value:.15G}" if isinstance(value, float) else value
 
 
-def _order(value: Scalar) -> tuple[int, float | str]:
+def _sort_key(value: Scalar) -> tuple[int, float | str]:
     if isinstance(value, bool):
         return 2, float(value)
     if isinstance(value, str):
@@ -174,7 +174,7 @@ def compared(sign: str, left: Scalar, right: Scalar) -> bool:
     blank: dict[type, Scalar] = {str: "", bool: False}
     left = blank.get(type(right), 0.0) if left is None else left
     right = blank.get(type(left), 0.0) if right is None else right
-    (kind, a), (other, b) = _order(left), _order(right)
+    (kind, a), (other, b) = _sort_key(left), _sort_key(right)
     order = (kind > other) - (kind < other)
     if not order and isinstance(a, float) and isinstance(b, float):
         order = 0 if math.isclose(a, b, rel_tol=1e-15) else (a > b) - (a < b)
@@ -190,6 +190,7 @@ MEETS = {"=": (0,), "<>": (-1, 1), "<": (-1,), ">": (1,), "<=": (-1, 0), ">=": (
 class Cells(Protocol):
     """What a formula may ask of the book that is evaluated; `evaluate.Evaluator` answers."""
 
+    book: Book
     values: dict[Position, Scalar]
     pending: dict[Position, None]
     aggregates: dict[tuple[str, Area], float]
@@ -201,6 +202,10 @@ class Cells(Protocol):
 
     def computed(self, place: Position, at: "Site") -> Scalar:
         """The value of a formula, at a site."""
+        ...
+
+    def has_subtotal(self, place: Position) -> bool:
+        """Whether a cell has a formula with SUBTOTAL, which other subtotals leave out."""
         ...
 
 

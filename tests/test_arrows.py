@@ -89,11 +89,12 @@ def test_arrows_run_down(path: Path) -> None:
     assert {room(name) for name in ours(path)} <= below | {own}
 
 
-def test_the_models_share_only_the_names_of_the_schemes_with_the_reference() -> None:
-    """Whatever else they took from the reference, they could no longer be a check on it."""
+def test_the_models_share_nothing_that_computes_with_the_reference() -> None:
+    """They share the names of the schemes, and how a signal waits. Were it more, they could no
+    longer be a check on it."""
     models = (ROOT / "replication" / "models").glob("*.py")
     shared = {name for path in models for name in ours(path) if room(name) == "reference"}
-    assert shared == {"reference.scheme"}
+    assert shared == {"reference.scheme", "reference.signals"}
 
 
 def test_no_circles_between_modules() -> None:

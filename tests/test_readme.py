@@ -9,8 +9,10 @@ import shlex
 import shutil
 import subprocess
 import sys
+from collections import Counter
 from collections.abc import Callable
 from contextlib import chdir
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -28,6 +30,7 @@ from replication.text import json_text
 ROOT = Path(__file__).parent.parent
 README = (ROOT / "README.md").read_text("utf-8")
 QUESTIONS = (ROOT / "docs" / "questions.md").read_text("utf-8")
+EQUATION_16 = {"eq16", "eq16-denominator", "eq16-offset", "eq16-power"}
 EXAMPLES = [
     (command, output)
     for page in (README, QUESTIONS)
@@ -96,6 +99,11 @@ def test_the_rates_are_those_measured() -> None:
     )  # fmt: skip
     for head, (_, _, share, interval) in zip(heads, rates.rates().rows, strict=True):
         assert f"| {head} | {share} | {interval} |" in text
+    whys = Counter(missed.why for missed in rates.not_first)
+    faults, alike, pair, _ = [count for _, count in whys.most_common()]
+    assert f"Of the {whys.total()} that are not named first, {faults} stand in Eq. 16," in text
+    assert {m.entry for m in rates.not_first if "both faults" in m.why} <= EQUATION_16
+    assert f"For {alike} another text of the same entry agrees as well, and for {pair} two" in text
 
 
 def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:
@@ -113,10 +121,14 @@ def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:
         "scale, multiply or pick printed numbers"
     ) in text
     assert f"{counts.repeats} are 0.298 rounded again, and {counts.evidence} are the cells" in text
-    assert counts.remarks == 12
     assert (
-        f"The {counts.entries} entries are {counts.numbers} numbers and twelve comparisons in "
-        "words."
+        f"The {counts.entries} entries are {counts.numbers} numbers and {counts.remarks} remarks "
+        "in words"
+    ) in text
+    below = record.claim("frank-zook-below-observed").figures
+    assert (
+        f'"slightly less" than 0.298 is {-below[0].value:.1f} % as printed, and '
+        f"{-below[1].value:.1f} % as derived."
     ) in text
     assert f"`audit.html` has all {len(record.findings)} findings" in text
     assert counts.equations_failing == 1
@@ -124,6 +136,46 @@ def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:
         f"Of {counts.equations} equations, {counts.equations_derived} follow from those before "
         "them or from mechanics, and one (Eq. 16) does not."
     ) in text
+
+
+CARDINALS = {8: "eight", 10: "ten"}
+
+
+def test_the_top_says_what_the_headline_rests_on(record: Record) -> None:
+    top = " ".join(README.partition("## Two commands")[0].split())
+    inferred = record.inferred[0]
+    mass = record.claim(inferred.entry.mass).claim.shown
+    assert f"inferred from {CARDINALS[len(inferred.evidence)]} cells of Table A-1" in top
+    assert inferred.assumed > inferred.with_printed_mass[1]
+    assert f"({mass} kg, with which {inferred.assumed:.0f} kg/m³ is impossible)" in top
+
+
+def test_the_slips_are_those_of_the_family(record: Record) -> None:
+    armor, steel = (record.claim(f"frank-zook-{name}") for name in ("rha", "stainless"))
+    assert armor.slips_tried is not None
+    assert steel.slips_tried is not None
+    at_taken = sum(armor.claim.target().contains(Fraction(slip.value)) for slip in armor.slips)
+    assert at_taken == 1
+    assert not {slip.name for slip in armor.slips} & {slip.name for slip in steel.slips}
+    assert (
+        f"with {armor.slips_tried.members} values, {len(armor.slips)} print it for some density "
+        f"that Table A-1 admits (one at 7850), and {armor.slips_tried.expected:.1f} would by "
+        f"accident; {len(steel.slips)} print 0.297, where {steel.slips_tried.expected:.1f} would; "
+        "none prints both."
+    ) in " ".join(README.split())
+
+
+def test_what_does_not_follow_is_the_audit_s_table(record: Record) -> None:
+    for name in ("rha", "stainless"):
+        claim = record.claim(f"frank-zook-{name}")
+        computed = (f"{reading.computed:.3f}" for reading in claim.assessment.readings)
+        assert f"| {claim.claim.shown} | {' | '.join(computed)} |" in README
+    sources = record.inferred[0].sources
+    of_304 = [c for c in sources if c.source.id.startswith("304-")]
+    assert len(of_304) == 10
+    assert "The nine other numbers that the cited sources print for 304" in " ".join(README.split())
+    others = record.counts.equations - record.counts.equations_derived - 1
+    assert f"The other {CARDINALS[others]} are definitions" in " ".join(README.split())
 
 
 def test_times_are_those_of_the_whole_table() -> None:
@@ -301,8 +353,8 @@ def test_a_verdict_on_a_remark_is_noticed(tampered: Audit) -> None:
     entry(tampered, "claims", "coarse-step-remark")["verdict"] = "consistent"
     assert list(differences(tampered)) == [
         "coarse-step-remark: has a verdict and no interval",
-        "summary: 65 claims are said to be 'consistent', 66 are",
-        "summary: 11 claims are said to be 'remark, quantified', 10 are",
+        "summary: 64 claims are said to be 'consistent', 65 are",
+        "summary: 42 claims are said to be 'remark, quantified', 41 are",
     ]
 
 

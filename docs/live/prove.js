@@ -88,7 +88,7 @@ class Entry {
     this.button.addEventListener("click", prove);
     this.shown = document.createElement("span");
     this.element.append(this.button, " ", this.shown);
-    if (isCard) place.querySelector("h3").after(this.element);
+    if (isCard) place.querySelector("h3, p").after(this.element);
     else place?.append(" ", this.element);
     this.isCard = isCard;
   }

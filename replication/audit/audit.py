@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from fractions import Fraction
 from functools import cached_property, partial
-from hashlib import sha256
-from importlib import metadata, resources
+from importlib import resources
 from itertools import product
 from math import isclose
 from typing import Any
@@ -80,7 +79,7 @@ class Audit(Results):
         computed = [(c.as_printed.reference, c.claim.unit) for c in reproduced if c.as_printed]
         values = {float(Fraction(digits) * to_si(unit)) for digits, unit in computed}
         standings = Counter(claim.assessment.standing for claim in reproduced)
-        remarks = sum(record.claim.kind in ("remark", "comparison") for record in claims)
+        remarks = sum(record.claim.kind == "remark" for record in claims)
         return r.Counts(
             entries=len(claims),
             numbers=len(claims) - remarks,
@@ -258,6 +257,9 @@ def provenance() -> dict[str, Any]:
 
     A library that is not installed is left out, as an audit without its files can do without some.
     """
+    from hashlib import sha256
+    from importlib import metadata
+
     folder = resources.files("reference") / "report"
     versions = {}
     for name in LIBRARIES:

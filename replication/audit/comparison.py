@@ -47,11 +47,19 @@ def approaches(results: Results) -> list[r.Approach]:
     """Return X/R [1] by every approach of the report, and by one without the target's inertia."""
     claims = results.ledger.claims
 
-    def approach(kind: str, name: str, claim: str = "", *computation: Any) -> r.Approach:
+    def approach(
+        kind: str, name: str, claim: str = "", *computation: Any, beta: int | None = None
+    ) -> r.Approach:
         return r.Approach(
-            kind=kind, name=name, computed=_value(*computation) if computation else None,
+            kind=kind, name=name, beta=beta,
+            computed=_value(*computation) if computation else None,
             claim=claim or None, shown=claims[claim].shown if claim else "",
         )  # fmt: skip
+
+    def of_case(
+        kind: str, beta: int, compute: Callable[[int], float], claim: str = ""
+    ) -> r.Approach:
+        return approach(kind, f"beta = {beta}", claim, compute, beta, beta=beta)
 
     def in_sheet(beta: int) -> float:
         return sheet.run(case(results, beta)).normalized_depth
@@ -76,9 +84,9 @@ def approaches(results: Results) -> list[r.Approach]:
         approach("observed", f"CV/PV = {drawn}, the line in Figure 1", "",
                  normalized_depth_from_volume_ratio, line),
         approach("observed", f"CV/PV = {taken}, as taken for Eq. 4", observed, computed, observed),
-        *(approach("sheet", f"beta = {b}", f"ratio-beta-{b}", in_sheet, b) for b in BETAS),
-        *(approach("exact", f"beta = {b}", "", exact, b) for b in BETAS),
-        *(approach("constant pressure", f"beta = {b}", "", cratered, b) for b in BETAS),
+        *(of_case("sheet", beta, in_sheet, f"ratio-beta-{beta}") for beta in BETAS),
+        *(of_case("exact", beta, exact) for beta in BETAS),
+        *(of_case("constant pressure", beta, cratered) for beta in BETAS),
         *(approach("Frank-Zook", f"{target}, {form}", claim, computed, claim, reading)
           for (target, claim), (form, reading) in product(targets, forms)),
         approach("hydrocode", "CTH", "cth-ratio"),

@@ -7,18 +7,26 @@ slips of the author's). The audit asserts none of them.
 import re
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from fractions import Fraction
-from functools import cache, cached_property
+from functools import cache, cached_property, partial
 from itertools import pairwise, product
 from string import digits
 
-from reference.derivations import premises_of
+from reference.derivations import derived_from, premises_of
 from reference.enclosure import SolutionSet, find_solutions
 from reference.ledger import INFERRED, Claim, Ledger
 from reference.printed import parse
 from reference.units import to_si
 from replication.audit.crosschecks import COMPARED_WITH
+from replication.audit.ranking import forms_beside, rank
 from replication.audit.record import BackSolved, Proof, Repair
-from replication.audit.verdict import Judge, Values, agrees, disagreeing, follows
+from replication.audit.verdict import (
+    Judge,
+    Values,
+    agrees,
+    disagreeing,
+    follows,
+    is_contradicted,
+)
 
 
 def dependents(ledger: Ledger, name: str) -> set[str]:
@@ -32,7 +40,7 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
     direct = {
         claim.id
         for claim in ledger.claims.values()
-        if name in (claim.id, claim.against, *claim.entries) or within in claim.uses
+        if name in (claim.id, *claim.entries) or within in claim.uses
     }
     for key, inferred in ledger.inferred.items():
         if direct & set(inferred.evidence):
@@ -52,6 +60,7 @@ class Explainer:
     def __init__(self, judge: Judge) -> None:
         self.judge, self.ledger = judge, judge.ledger
         self._repairs_by = cache(self._edited)  # several failing claims try the same edits
+        self._forms = cache(partial(forms_beside, judge.ledger))
 
     @cached_property
     def _alternatives(self) -> list[Values]:
@@ -101,8 +110,8 @@ class Explainer:
     def repairs(self, name: str) -> list[Repair]:
         """Return the one-edit corrections that make a claim or an equation agree, likeliest first.
 
-        The fewer claims fail with a repair, the likelier it is; among equals, the likelier typing
-        error comes first. A constant is repaired together with its equation.
+        `replication.audit.ranking` says which are likelier. A constant is repaired together with
+        its equation.
         """
         name = self.ledger.equation_of(name) or name
         return self._repairs(name, self._suspects(name))
@@ -111,9 +120,7 @@ class Explainer:
         """Return the edits of these entries that make a claim agree, likeliest first."""
         kinds = (*NUMBER_EDITS, *EQUATION_EDITS)
         repairs = [repair for entry in entries for repair in self._repairs_by(name, entry)]
-        repairs.sort(key=lambda r: (
-            r.reading, len(r.failing), r.entry != name, kinds.index(r.kind), r.entry, r.text,
-        ))  # fmt: skip
+        repairs.sort(key=lambda r: rank(self.ledger, r, self._forms(r.entry), kinds, name))
         return repairs[:_SHOWN]
 
     def _edited(self, name: str, entry: str) -> list[Repair]:
@@ -135,15 +142,19 @@ class Explainer:
         return repairs
 
     def _suspects(self, name: str) -> set[str]:
-        """Return what may be misprinted: it, its inputs, its equations and their constants."""
+        """Return what may be misprinted: it, its inputs, its equations and their constants.
+
+        A number that is compared with others may fail by a misprint in one of these.
+        """
         ledger = self.ledger
         if name in ledger.equations:
             suspects = equations = {name, *premises_of(name)}
         else:
             claim = ledger.claims[name]
             equations = set(claim.uses)
-            beside = {key for key in (claim.against, claim.within) if key}
-            suspects = {name, *claim.stated} | beside | equations
+            beside = {claim.within} if claim.within else set()
+            compared = ledger.claims.keys() & COMPARED_WITH.get(name, ())
+            suspects = {name, *claim.stated} | beside | equations | compared
             for unknown in self.judge.moved.intersection(claim.entries):
                 # Its evidence excludes the nominal value, so what that rests on may be misprinted.
                 evidence = ledger.inferred[unknown.removeprefix(INFERRED)].evidence
@@ -153,19 +164,19 @@ class Explainer:
     def _agreeing(self, name: str, entry: str, changed: Ledger) -> str | None:
         """Return the first reading of a claim or equation that agrees once an entry is changed.
 
-        A number without a computation agrees if its sources and the claims that confirm it do.
+        A number without a computation agrees if the claims that confirm it do, and its sources, and
+        the numbers that it is compared with.
         """
         within = changed.equation_of(name)
         if within is not None:
             return "" if follows(changed, within) else None
-        claim, sources = changed.claims[name], changed.sources_of(name)
+        claim = changed.claims[name]
         if claim.computation is not None:
             pairs = product(claim.computations, self._alternatives)
             return next((r for r, values in pairs if agrees(changed, claim, values, r)), None)
-        if entry != name or not self.judge.is_confirmed(claim, claim.value):
-            return None
-        sourced = not sources or any(claim.target().meets(s.interval) for s in sources)
-        return "" if sourced else None
+        own = entry == name and self.judge.is_confirmed(claim, claim.value)
+        related = own or entry in COMPARED_WITH.get(name, ())
+        return "" if related and not is_contradicted(changed, name) else None
 
     def _failing(self, entry: str, changed: Ledger) -> set[str]:
         """Return all claims and equations that fail once an entry is changed."""
@@ -173,15 +184,18 @@ class Explainer:
         options = (disagreeing(changed, touched, values) for values in self._alternatives)
         failing = min(options, key=len)
         if within is not None:
-            touched.add(within)
-            if not follows(changed, within):
-                failing.add(within)
+            equations = derived_from(within)
+            touched |= equations
+            failing |= {name for name in equations if not follows(changed, name)}
+        compared = touched.intersection(COMPARED_WITH)
+        failing |= {name for name in compared if is_contradicted(changed, name)}
         return (self._failing_now - touched) | failing
 
     @cached_property
     def _failing_now(self) -> set[str]:
         """All claims and equations that fail in the ledger as it is."""
         claims = disagreeing(self.ledger, self.ledger.claims, self.judge.assumed)
+        claims |= {name for name in COMPARED_WITH if is_contradicted(self.ledger, name)}
         return claims | {name for name in self.ledger.equations if not follows(self.ledger, name)}
 
     # One misprint behind several failures

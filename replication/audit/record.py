@@ -271,10 +271,14 @@ class Finding(_Part, frozen=True):
 
 
 class Approach(_Part, frozen=True):
-    """The normalized depth X/R by one approach, as computed here and, `shown`, as printed."""
+    """The normalized depth X/R by one approach, as computed here and, `shown`, as printed.
+
+    `beta` is that of the report's case; null for an approach that has none.
+    """
 
     kind: str
     name: str
+    beta: int | None = None
     computed: float | None = None
     shown: str = msgspec.field(name="printed", default="")
     claim: str | None = None
@@ -348,7 +352,7 @@ class Level(_Part, frozen=True):
 class Counts(_Part, frozen=True):
     """How many claims and equations there are, by kind and outcome.
 
-    The `entries` are all claims: `numbers` are printed numbers, `remarks` comparisons in words.
+    The `entries` are all claims: `numbers` are printed numbers, `remarks` what it says in words.
     Of the `reproduced` numbers, `constants` stand in equations and `computed` are calculated
     from their inputs; `values` counts the different values among these, each once however often
     it is printed. Of the computed ones, only the `independent` ones could have failed by

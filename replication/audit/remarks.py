@@ -1,20 +1,26 @@
-"""The comparisons that the report makes in words, each with the figures to judge it by.
+"""What the report says in words of its results, each with the figures to judge it by.
 
 A remark is no number, so it gets no verdict but "remark, quantified": a function of its id computes
-what a reader needs to decide whether "slightly", "more pronounced" or "the same" is well said. With
-a misprint planted in the report a figure may have no value; it is None then.
+what a reader needs to decide whether "slightly", "more pronounced" or "the same" is well said. The
+first figure is the one that tells most. A remark that says again what another says has no figures
+of its own. With a misprint planted in the report a figure may have no value; it is None then.
 """
 
 from collections.abc import Callable
 from itertools import product
-from math import isfinite
+from math import erfc, isfinite, log1p, pi, sqrt
+from statistics import NormalDist
 from typing import Any
 
 from reference.ledger import Claim
 from reference.scheme import Scheme
+from replication.audit.findings.resistance import johnson_cook_copper, resistances
+from replication.audit.findings.stream import GAUSSIAN
 from replication.audit.record import Figure
 from replication.audit.results import DERIVED, Results, case, exact_ratio
 from replication.models import sheet
+from replication.models.crater import contact_diameter, volume_ratio
+from replication.models.estimates import penetration_threshold
 from replication.models.impact import InputError
 from replication.models.inverse import velocity_for_depth
 
@@ -22,8 +28,8 @@ BETAS = (3, 5)
 
 
 def figures(results: Results, claim: Claim) -> list[Figure]:
-    """Return the figures for a claim of the kind "remark"; none for any other claim."""
-    return REMARKS[claim.id](results) if claim.kind == "remark" else []
+    """Return the figures for a claim of the kind "remark"; none for a claim that has none."""
+    return REMARKS[claim.id](results) if claim.id in REMARKS else []
 
 
 def quantified(means: str, unit: str, compute: Callable[..., float], *arguments: Any) -> Figure:
@@ -35,24 +41,134 @@ def quantified(means: str, unit: str, compute: Callable[..., float], *arguments:
     return Figure(means=means, value=value if isfinite(value) else None, unit=unit)
 
 
-def coarse_step(results: Results) -> list[Figure]:
-    """Section 3: the results "did not change significantly" with a time step of 0.5 ns."""
+def percent_beyond(deviations: float) -> float:
+    """Return how many percent of a normal distribution lie above its mean by so many deviations.
 
-    def micrometers(beta: int, scheme: Scheme, step: str) -> float:
-        return sheet.run(case(results, beta, step=results[step]), scheme).final_depth * 1e6
+    By the complement of the error function, which keeps its digits far from the mean.
+    """
+    return 50 * erfc(deviations / sqrt(2))
 
-    def change(beta: int, scheme: Scheme) -> float:
-        coarse, fine = (micrometers(beta, scheme, step) for step in ("coarse-step", "a-step"))
-        return 100 * (coarse / fine - 1)
 
-    shown = []
-    for beta, scheme in product(BETAS, Scheme):
-        words = f"beta = {beta}, drag at the {scheme.drag_at} velocity"
-        for step in ("a-step", "coarse-step"):
-            means = f"final depth at {results.text(step)} ns, {words}"
-            shown.append(quantified(means, "um", micrometers, beta, scheme, step))
-        shown.append(quantified(f"change, {words}", "percent", change, beta, scheme))
-    return shown
+def percent_more(value: float, than: float) -> float:
+    """Return by how many percent a value exceeds another."""
+    return 100 * (value / than - 1)
+
+
+LAWS = (("Eq. 1", "eq1-power"), ("drag on a sphere", ""))
+"""Two laws of a particle's velocity by its size, and the claim that prints the power, if any."""
+
+
+EXTREMES = (("smallest", "particle-size-least"), ("largest", "particle-size-greatest"))
+"""The extreme particles of Figure 1, and the claims that print their diameters."""
+
+
+def stream_velocity(results: Results, stream: str, size: str, power: str) -> float:
+    """Velocity [m/s] of a particle of this size in a stream with this average, both by claim.
+
+    It is proportional to the mass to a power, by Eq. 1 (whose power a claim prints), or to the
+    diameter to the power -1/2, by drag on a sphere.
+    """
+    faster: float = (results["mean-diameter"] / results[size]) ** by_diameter(results, power)
+    return results[stream] * faster
+
+
+def by_diameter(results: Results, power: str) -> float:
+    """Return the power of 1/diameter to which a law makes the velocity proportional."""
+    return 3 * results[power] if power else 0.5
+
+
+# Section 2
+
+
+def eq1_agreement(results: Results) -> list[Figure]:
+    """Section 2: Eq. 1 is in "not good quantitative agreement" with experiments."""
+
+    def deviation(power: str) -> float:
+        sizes = results["diameter-deviation"] / results["mean-diameter"]
+        return by_diameter(results, power) * sizes * results["a1-initial-velocity"] * GAUSSIAN
+
+    stated = "mean deviation of the velocity that section 4 states"
+    means = "mean deviation at 500 m/s by {}, to first order in the printed sizes"
+    return [
+        *(quantified(means.format(law), "m/s", deviation, power) for law, power in LAWS),
+        quantified(stated, "m/s", results.__getitem__, "velocity-deviation"),
+    ]
+
+
+def smaller_faster(results: Results) -> list[Figure]:
+    """Section 2: "the smaller particles have a higher velocity than the mean", by Eq. 1."""
+    return [
+        quantified(
+            f"velocity of the {which} particle of the 521-m/s data by {law}", "m/s",
+            stream_velocity, results, "velocity-521", size, power,
+        )
+        for (which, size), (law, power) in product(EXTREMES, LAWS)
+    ]  # fmt: skip
+
+
+def clustered_small(results: Results) -> list[Figure]:
+    """Section 2: of the data points more are "clustered at the lower end of the range"."""
+
+    def share(of_range: Callable[[float, float], float]) -> float:
+        least, greatest = results["particle-size-least"], results["particle-size-greatest"]
+        below = NormalDist(results["mean-diameter"], results["diameter-deviation"]).cdf
+        return (
+            100
+            * (below(of_range(least, greatest)) - below(least))
+            / (below(greatest) - below(least))
+        )
+
+    return [
+        quantified(
+            "share of the powder's particles of 10 to 30 um that are below 20 um, their sizes "
+            "Gaussian as printed",
+            "percent", share, lambda least, greatest: (least + greatest) / 2,
+        ),
+        quantified(
+            "the same below the mean of 22 um", "percent", share,
+            lambda _, __: results["mean-diameter"],
+        ),
+    ]  # fmt: skip
+
+
+def regardless_of_size(results: Results) -> list[Figure]:
+    """Section 2: a minimum CV/PV "regardless of the particle size"; the model has one, too."""
+
+    def crater(beta: int) -> float:
+        return volume_ratio(exact_ratio(case(results, beta, velocity=results["velocity-521"])))
+
+    means = "CV/PV of the model at 521 m/s, the same for every size, beta = {}"
+    return [
+        *(quantified(means.format(beta), "1", crater, beta) for beta in BETAS),
+        quantified("least CV/PV of the data", "1", results.__getitem__, "volume-ratio-line"),
+    ]
+
+
+def certainly_higher(results: Results) -> list[Figure]:
+    """Section 2: as none stuck at 403 m/s, the minimum velocity "would certainly be higher"."""
+    return [
+        quantified(
+            f"velocity of the smallest particle, 10 um, in the stream of 403 m/s by {law}", "m/s",
+            stream_velocity, results, "velocity-403", "particle-size-least", power,
+        )
+        for law, power in LAWS
+    ]  # fmt: skip
+
+
+def surprisingly_shallow(results: Results) -> list[Figure]:
+    """Section 2: a depth of 3.3 um for a particle of 22 um is "surprisingly shallow"."""
+
+    def over_diameter() -> float:
+        return 100 * results["observed-depth"] / results["observed-depth-diameter"]
+
+    def over_model(beta: int) -> float:
+        return results["observed-depth"] / results[f"depth-beta-{beta}"]
+
+    means = "the observed over the printed depth of the model, beta = {}"
+    return [
+        quantified("observed depth over the particle's diameter", "percent", over_diameter),
+        *(quantified(means.format(beta), "1", over_model, beta) for beta in BETAS),
+    ]
 
 
 def profile_consistent(results: Results) -> list[Figure]:
@@ -71,34 +187,111 @@ def profile_consistent(results: Results) -> list[Figure]:
     ]
 
 
-def smaller_faster(results: Results) -> list[Figure]:
-    """Section 2: "the smaller particles have a higher velocity than the mean", by Eq. 1."""
+# Section 3
+
+
+def larger_grain(results: Results) -> list[Figure]:
+    """Section 3: a grain "can be much larger" than a particle: it encloses several craters.
+
+    The report gives no size of a grain. The least circle around three equal ones that touch is
+    1 + 2/3^(1/2) times as wide as one of them.
+    """
+    diameter = "crater-particle-diameter"
+
+    def crater() -> float:
+        wide = contact_diameter(results["observed-third"], results[diameter])
+        return wide / results[diameter]
+
+    def around_three() -> float:
+        return (1 + 2 / sqrt(3)) * crater()
+
+    third = "a particle of 20 um pressed in by a third of its radius"
     return [
         quantified(
-            f"velocity of the {which} particle of the 521-m/s data by {law}", "m/s",
-            stream_velocity, results, size, power,
-        )
-        for (which, size), (law, power) in product(EXTREMES, LAWS)
+            "diameter of a grain around three craters side by side, over a particle's", "1",
+            around_three,
+        ),
+        quantified(f"diameter of the crater of {third}, over the particle's", "1", crater),
     ]  # fmt: skip
 
 
-EXTREMES = (("smallest", "particle-size-least"), ("largest", "particle-size-greatest"))
-"""The extreme particles of Figure 1, and the claims that print their diameters."""
+def copper_stronger(results: Results) -> list[Figure]:
+    """Section 3: a rigid particle needs a strength "greater than the target resistance"."""
+
+    def resistance(beta: int) -> float:
+        return float(resistances(results)[beta]) / 1e9
+
+    return [
+        quantified("strength quoted for copper", "GPa", lambda: results["copper-yield"] / 1e9),
+        *(quantified(f"target resistance, beta = {b}", "GPa", resistance, b) for b in BETAS),
+    ]
 
 
-def stream_velocity(results: Results, size: str, power: str) -> float:
-    """Velocity [m/s] of a particle of this size in the stream of 521 m/s.
+def particle_stronger(results: Results) -> list[Figure]:
+    """Section 3: a particle's strength "may be much higher" than that of bulk copper."""
 
-    It is proportional to the mass to a power, by Eq. 1 (whose power a claim prints), or to the
-    diameter to the power -1/2, by drag on a sphere.
-    """
-    exponent = 3 * results[power] if power else 0.5
-    faster: float = (results["mean-diameter"] / results[size]) ** exponent
-    return results["velocity-521"] * faster
+    def multiple(beta: int) -> float:
+        return float(resistances(results)[beta]) / results["copper-yield"]
+
+    means = "target resistance over the strength quoted for copper, beta = {}"
+    return [quantified(means.format(beta), "1", multiple, beta) for beta in BETAS]
 
 
-LAWS = (("Eq. 1", "eq1-power"), ("drag on a sphere", ""))
-"""Two laws of a particle's velocity by its size, and the claim that prints the power, if any."""
+def rates_far_higher(results: Results) -> list[Figure]:
+    """Section 3: strain rates of the impact are "far higher" than split-Hopkinson bars reach."""
+
+    def rate() -> float:
+        return results["strain-rate-velocity"] / results["strain-rate-length"]
+
+    def times() -> float:
+        (_, greatest) = results.ledger.sources["hopkinson-rates"].numbers
+        return rate() / float(greatest.value)
+
+    return [
+        quantified(
+            "strain rate of the impact over 10,000 per second, up to which a public source says "
+            "that these bars are generally used",
+            "1", times,
+        ),
+        quantified("strain rate, velocity over diameter as printed", "1/s", rate),
+    ]  # fmt: skip
+
+
+def strength_rises(results: Results) -> list[Figure]:
+    """Section 3: copper's strength can be expected to "increase with increasing strain rate"."""
+
+    def times() -> float:
+        slow = results["copper-johnson-cook"] + results["copper-johnson-cook-hardening"]
+        return johnson_cook_copper(results) / slow
+
+    law = "Johnson and Cook's law for copper"
+    return [
+        quantified(f"flow stress at 10^7 over that at 1 per second by {law}", "1", times),
+        quantified(
+            f"flow stress at 10^7 per second and strain 1 by {law}, far beyond its fit", "MPa",
+            lambda: johnson_cook_copper(results) / 1e6,
+        ),
+    ]  # fmt: skip
+
+
+def coarse_step(results: Results) -> list[Figure]:
+    """Section 3: the results "did not change significantly" with a time step of 0.5 ns."""
+
+    def micrometers(beta: int, scheme: Scheme, step: str) -> float:
+        return sheet.run(case(results, beta, step=results[step]), scheme).final_depth * 1e6
+
+    def change(beta: int, scheme: Scheme) -> float:
+        coarse, fine = (micrometers(beta, scheme, step) for step in ("coarse-step", "a-step"))
+        return percent_more(coarse, fine)
+
+    shown = []
+    for beta, scheme in product(BETAS, Scheme):
+        words = f"beta = {beta}, drag at the {scheme.drag_at} velocity"
+        shown.append(quantified(f"change, {words}", "percent", change, beta, scheme))
+        for step in ("a-step", "coarse-step"):
+            means = f"final depth at {results.text(step)} ns, {words}"
+            shown.append(quantified(means, "um", micrometers, beta, scheme, step))
+    return shown
 
 
 def large_difference(results: Results) -> list[Figure]:
@@ -109,6 +302,74 @@ def large_difference(results: Results) -> list[Figure]:
 
     means = "X/R of the model over the observed one, beta = {}"
     return [quantified(means.format(beta), "1", over_observed, beta) for beta in BETAS]
+
+
+def rigid_attribution(results: Results) -> list[Figure]:
+    """Section 3: the disparity is "most likely attributable to the rigid body assumption"."""
+
+    def least_velocity(beta: int) -> float:
+        return penetration_threshold(
+            particle_strength=results["copper-yield"],
+            resistance=float(resistances(results)[beta]),
+            particle_density=results["a1-density"],
+        )
+
+    means = (
+        "velocity below which copper of the quoted strength does not penetrate, Eq. 5, beta = {}"
+    )
+    return [quantified(means.format(beta), "m/s", least_velocity, beta) for beta in BETAS]
+
+
+def attempts_no_better(results: Results) -> list[Figure]:
+    """Section 3: attempts with a particle that deforms "did no better"; none of them is given."""
+
+    def apart(beta: int) -> float:
+        return results[f"ratio-beta-{beta}"] - results["observed-ratio"]
+
+    means = "X/R of the rigid model less the observed one, as printed, beta = {}"
+    return [quantified(means.format(beta), "1", apart, beta) for beta in BETAS]
+
+
+def frank_zook_below_observed(results: Results) -> list[Figure]:
+    """Section 3: Frank and Zook's X/R is "slightly less" than that of section 2."""
+
+    def below(compute: Callable[..., float], *arguments: Any) -> float:
+        return percent_more(compute(*arguments), results["observed-depth-ratio"])
+
+    armor, observed = "frank-zook-rha", f"over the observed {results.text('observed-depth-ratio')}"
+    return [
+        quantified(
+            f"X/R as printed {observed}, less 1", "percent", below, results.__getitem__, armor
+        ),
+        quantified(
+            f"X/R derived from Eqs. 14 and 15 {observed}, less 1", "percent",
+            below, results.computed, armor, DERIVED,
+        ),
+        quantified(
+            f"X/R by Eq. 16 as printed {observed}, less 1", "percent",
+            below, results.computed, armor,
+        ),
+    ]  # fmt: skip
+
+
+def strength_difference(results: Results) -> list[Figure]:
+    """Section 3: the strength of stainless steel "might account for some of the difference"."""
+
+    def share(compute: Callable[..., float], *arguments: Any) -> float:
+        armor, steel = (compute(f"frank-zook-{name}", *arguments) for name in ("rha", "stainless"))
+        return 100 * (steel - armor) / (results["observed-depth-ratio"] - armor)
+
+    R_t = results.text("fz-resistance-stainless", "GPa")
+    means = f"share of the distance to the observed X/R that R_t = {R_t} GPa closes, {{}}"
+    return [
+        quantified(means.format("as printed"), "percent", share, results.__getitem__),
+        quantified(means.format("Eqs. 14 and 15"), "percent", share, results.computed, DERIVED),
+        quantified(means.format("Eq. 16 as printed"), "percent", share, results.computed),
+    ]
+
+
+CODES = (("Autodyne", "autodyne-ratio"), ("CTH", "cth-ratio"))
+"""The hydrocodes, and the claims that print their X/R."""
 
 
 def closest_approach(results: Results) -> list[Figure]:
@@ -137,25 +398,90 @@ def closest_approach(results: Results) -> list[Figure]:
     return shown
 
 
-CODES = (("Autodyne", "autodyne-ratio"), ("CTH", "cth-ratio"))
-"""The hydrocodes, and the claims that print their X/R."""
+# Section 4
+
+
+def same_calculation(results: Results) -> list[Figure]:
+    """Section 4: Autodyne "was used for the same calculation"; its inputs over the model's."""
+
+    def over(autodyne: str, model: str) -> float:
+        return results[autodyne] / results[model]
+
+    pairs = (
+        ("flow stress of the steel", "autodyne-steel-yield", "flow-stress"),
+        ("strength of the copper", "autodyne-copper-yield", "copper-yield"),
+        ("diameter of the particle", "autodyne-diameter", "mean-diameter"),
+    )
+    return [
+        quantified(f"{what}, Autodyne's over that of the model's text", "1", over, *claims)
+        for what, *claims in pairs
+    ]
 
 
 def codes_overestimate(results: Results) -> list[Figure]:
     """Section 4: "more sophisticated codes also over-estimate the depth of penetration"."""
 
     def excess(claim: str) -> float:
-        return 100 * (results[claim] / results["observed-depth-ratio"] - 1)
+        return percent_more(results[claim], results["observed-depth-ratio"])
 
     means = "{}'s X/R over the observed one, less 1"
     return [quantified(means.format(code), "percent", excess, claim) for code, claim in CODES]
+
+
+def flat_surface(results: Results) -> list[Figure]:
+    """Section 4: if particles hit with a flat surface, the depth "will decrease".
+
+    A particle of the same mass whose contact has the area pi R^2 from the start stops at X/R =
+    (4 rho_p/3 rho_t) ln(1 + rho_t V^2/2R_t).
+    """
+
+    def flat(beta: int) -> float:
+        x = case(results, beta)
+        drag = x.target_density * x.velocity**2 / (2 * x.target_resistance)
+        return 4 * x.particle_density / (3 * x.target_density) * log1p(drag)
+
+    def sphere(beta: int) -> float:
+        return exact_ratio(case(results, beta))
+
+    wide, round_ = "X/R if the contact is as wide as the sphere from the start", "exact X/R"
+    return [
+        *(quantified(f"{wide}, beta = {beta}", "1", flat, beta) for beta in BETAS),
+        *(
+            quantified(f"{round_} of the sphere, beta = {beta}", "1", sphere, beta)
+            for beta in BETAS
+        ),
+    ]
+
+
+def elastic_rebound(results: Results) -> list[Figure]:
+    """Section 4: the depth of a crater "relaxes to a lower value" when the particle is removed.
+
+    By Hertz a contact of radius a under the mean pressure R_t springs back by 3 pi a R_t/4E, here
+    with the report's modulus E and no contraction across, which makes it largest.
+    """
+
+    def rebound(beta: int) -> float:
+        x = case(results, beta)
+        depth = exact_ratio(x)
+        pressure = x.target_resistance / results["elastic-modulus"]
+        return 3 * pi / 4 * pressure * sqrt(2 * depth - depth**2)
+
+    def apart(beta: int) -> float:
+        return exact_ratio(case(results, beta)) - results["observed-depth-ratio"]
+
+    back = "depth over R by which the model's crater springs back (Hertz, rigid particle)"
+    return [
+        *(quantified(f"{back}, beta = {beta}", "1", rebound, beta) for beta in BETAS),
+        *(quantified(f"exact X/R less the observed one, beta = {b}", "1", apart, b) for b in BETAS),
+    ]
 
 
 def deeper_craters(results: Results) -> list[Figure]:
     """Section 4: smaller particles "produce deeper craters in relation to their diameters"."""
 
     def ratio(size: str, power: str) -> float:
-        return exact_ratio(case(results, 5, velocity=stream_velocity(results, size, power)))
+        velocity = stream_velocity(results, "velocity-521", size, power)
+        return exact_ratio(case(results, 5, velocity=velocity))
 
     return [
         quantified(
@@ -164,6 +490,37 @@ def deeper_craters(results: Results) -> list[Figure]:
         )
         for (which, size), (law, power) in product(EXTREMES, LAWS)
     ]  # fmt: skip
+
+
+def larger_adhere(results: Results) -> list[Figure]:
+    """Section 4: in a faster stream "larger particles will have sufficient velocity to adhere"."""
+
+    def diameter(stream: str, power: str) -> float:
+        faster = results[stream] / results["velocity-521"]
+        size: float = results["mean-diameter"] * faster ** (1 / by_diameter(results, power))
+        return size * 1e6
+
+    streams = ("velocity-403", "velocity-606")
+    return [
+        quantified(
+            f"largest particle that flies at 521 m/s in the stream of {results.text(stream)} m/s, "
+            f"by {law}",
+            "um", diameter, stream, power,
+        )
+        for stream, (law, power) in product(streams, LAWS)
+    ]  # fmt: skip
+
+
+def slower_incipient(results: Results) -> list[Figure]:
+    """Section 4: in fast streams "the slower particles" are those that just stick."""
+
+    def share(stream: str) -> float:
+        distance = results[stream] - results["velocity-521"]
+        return percent_beyond(distance / results["velocity-deviation"])
+
+    means = "share of the stream of {} m/s that is slower than 521 m/s, deviation as stated"
+    streams = ("velocity-606", "velocity-704")
+    return [quantified(means.format(results.text(v)), "percent", share, v) for v in streams]
 
 
 def size_effect(results: Results) -> list[Figure]:
@@ -190,11 +547,46 @@ def velocity_effect(results: Results) -> list[Figure]:
         return exact_ratio(case(results, 5, velocity=results[velocity]))
 
     def rise() -> float:
-        return 100 * (ratio(ends[1]) / ratio(ends[0]) - 1)
+        return percent_more(ratio(ends[1]), ratio(ends[0]))
 
     means = "exact X/R at {} m/s, beta = 5"
     shown = [quantified(means.format(results.text(end)), "1", ratio, end) for end in ends]
-    return [*shown, quantified("rise between them", "percent", rise)]
+    return [quantified("rise of the exact X/R from 400 to 500 m/s", "percent", rise), *shown]
+
+
+def too_few(results: Results) -> list[Figure]:
+    """Section 4: particles of 450 m/s may have been "too few in number to be observed"."""
+
+    def share(average: str, deviations: float) -> float:
+        distance = results["stream-velocity-450"] - results[average]
+        return percent_beyond(distance / results["velocity-deviation"] * deviations)
+
+    means = "share faster than 450 m/s about {} m/s, 50 m/s taken as {} deviation"
+    kinds = (("standard", 1.0), ("mean", GAUSSIAN))
+    averages = ("stream-velocity-400", "velocity-403")
+    return [
+        quantified(means.format(results.text(average), kind), "percent", share, average, deviations)
+        for average, (kind, deviations) in product(averages, kinds)
+    ]
+
+
+def faster_only(results: Results) -> list[Figure]:
+    """Section 4: at 521 m/s "only faster-than-average particles were adhering"."""
+
+    def ratio(deviations: int) -> float:
+        velocity = results["velocity-521"] + deviations * results["velocity-deviation"]
+        return exact_ratio(case(results, 5, velocity=velocity))
+
+    return [
+        quantified(
+            "share of the stream that is faster than its average", "percent", percent_beyond, 0
+        ),
+        quantified(
+            "share faster by the stated deviation of 50 m/s or more", "percent", percent_beyond, 1
+        ),
+        quantified("exact X/R at 521 m/s, beta = 5", "1", ratio, 0),
+        quantified("exact X/R at 571 m/s, beta = 5", "1", ratio, 1),
+    ]
 
 
 def velocity_distribution(results: Results) -> list[Figure]:
@@ -237,15 +629,36 @@ def rising_resistance(results: Results) -> list[Figure]:
 
 REMARKS: dict[str, Callable[[Results], list[Figure]]] = {
     "smaller-faster": smaller_faster,
+    "eq1-agreement": eq1_agreement,
+    "clustered-small": clustered_small,
+    "regardless-of-size": regardless_of_size,
+    "certainly-higher": certainly_higher,
+    "surprisingly-shallow": surprisingly_shallow,
     "profile-consistent": profile_consistent,
+    "larger-grain": larger_grain,
+    "copper-stronger": copper_stronger,
+    "particle-stronger": particle_stronger,
+    "rates-far-higher": rates_far_higher,
+    "strength-rises": strength_rises,
     "coarse-step-remark": coarse_step,
     "large-difference": large_difference,
+    "rigid-attribution": rigid_attribution,
+    "attempts-no-better": attempts_no_better,
+    "frank-zook-below-observed": frank_zook_below_observed,
+    "strength-difference": strength_difference,
     "closest-approach": closest_approach,
+    "same-calculation": same_calculation,
     "codes-overestimate": codes_overestimate,
+    "flat-surface": flat_surface,
+    "elastic-rebound": elastic_rebound,
     "deeper-craters": deeper_craters,
+    "larger-adhere": larger_adhere,
+    "slower-incipient": slower_incipient,
     "size-effect": size_effect,
     "velocity-effect": velocity_effect,
+    "too-few": too_few,
+    "faster-only": faster_only,
     "velocity-distribution": velocity_distribution,
     "rising-resistance": rising_resistance,
 }
-"""The function that computes the figures of each remark."""
+"""The function that computes the figures of each remark, but for those that repeat another."""

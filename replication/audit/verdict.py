@@ -97,6 +97,25 @@ def is_consistent(ledger: Ledger, claim: Claim) -> bool:
     return interval.meets(ledger.claims[name].as_input(Convention()))
 
 
+def _cross_checked(ledger: Ledger, name: str) -> Assessment:
+    """Return the verdict on a number that is compared with others, which only limit it."""
+    try:
+        checked = CROSS_CHECKS[name](ledger)
+    except (ArithmeticError, ValueError) as error:  # an input has no meaning
+        return Assessment(Verdict.INCONSISTENT, no_value=str(error))
+    return Assessment(checked.verdict, compared=checked.says)
+
+
+def is_contradicted(ledger: Ledger, name: str) -> bool:
+    """Return whether all public sources for a number contradict it, or what it is compared with.
+
+    It is compared with other numbers only where no public source prints it.
+    """
+    if sources := ledger.sources_of(name):
+        return not any(_compare(ledger.claims[name], source)[0] for source in sources)
+    return name in CROSS_CHECKS and _cross_checked(ledger, name).verdict.is_doubtful
+
+
 class Judge:
     """Judges the claims of one ledger, and computes only once what several of them need.
 
@@ -163,11 +182,7 @@ class Judge:
             is_met = self.confirmed_range(claim) is not None
             return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
         if claim.id in CROSS_CHECKS:
-            try:
-                checked = CROSS_CHECKS[claim.id](self.ledger)
-            except (ArithmeticError, ValueError) as error:  # an input has no meaning
-                return Assessment(Verdict.INCONSISTENT, no_value=str(error))
-            return Assessment(checked.verdict, compared=checked.says)
+            return _cross_checked(self.ledger, claim.id)
         if claim.given == "definition":
             return Assessment(Verdict.CONSISTENT)
         return Assessment(Verdict.NOT_CHECKABLE)

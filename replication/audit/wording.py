@@ -20,14 +20,12 @@ from replication.audit.assessment import (
 from replication.audit.verdict import Judge
 from replication.text import between, number, quantity
 
-REMARK = "A remark, not a number: the figures below help to judge it."
-
 
 def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     """Explain the verdict on a claim by what it rests on."""
     ledger = judge.ledger
     if assessed.verdict is Verdict.REMARK:
-        return REMARK
+        return remark(ledger, claim)
     if assessed.no_value:
         return f"With the numbers as printed it cannot be computed: {assessed.no_value}."
     if assessed.readings:
@@ -45,6 +43,14 @@ def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
     if assessed.verdict is Verdict.CONSISTENT:
         return f"Nothing to compute: {claim.why}."
     return f"Nothing in the report decides it: {claim.why}."
+
+
+def remark(ledger: Ledger, claim: Claim) -> str:
+    """Say that a claim is a remark, and where its figures are."""
+    if claim.same_as is None:
+        return "A remark, not a number: the figures below help to judge it."
+    same = ledger.claims[claim.same_as]
+    return f'It says again "{same.shown}", where the figures are: `{same.id}`.'
 
 
 def repetition(ledger: Ledger, claim: Claim, verdict: Verdict) -> str:
@@ -121,43 +127,73 @@ def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
 
 
 def scope(claim: Claim, reading: Reading) -> str:
-    """Say under which conventions the verdict was tried, and which of them give another one."""
+    """Say under which conventions the verdict holds, and under which it becomes another one."""
+    subject = "As printed, the" if claim.readings and not reading.name else "The"
+    holds = f"{subject} verdict holds under {_conditions_met(claim, reading)}"
+    if exceptions := _exceptions(claim, reading):
+        return f"{holds}; {exceptions}."
+    return f"{holds}."
+
+
+def _conditions_met(claim: Claim, reading: Reading) -> str:
+    """Name the conventions under which the verdict holds; some may still fail together."""
     tried = [judgement.convention for judgement in reading.judgements]
     usual = [c for c in tried if (c.rounding, c.scheme) == (tried[0].rounding, tried[0].scheme)]
-    names = {"choices_exact": "the author's choices", "header_exact": "the header of Table A-1"}
-    varied = [name for key, name in names.items() if len({getattr(c, key) for c in usual}) > 1]
-    inputs = f", with {' and '.join(varied)} exact or rounded" if varied else ""
-    where = f"{inputs}{', in both schemes' if claim.by_scheme else ''}"
-    subject = "As printed, the" if claim.readings and not reading.name else "The"
-    holds = f"{subject} verdict holds under three ways of rounding{where}"
-    if exceptions := _exceptions(claim, reading):
-        return f"{holds}, with these exceptions: {exceptions}."
-    return f"{holds}."
+    alone = {words for own in _unmet(reading).values() for words in own if len(words) == 1}
+    conditions = [_CUT_FAILS if (_CUT,) in alone else _EVERY_ROUNDING]
+    for key, fails, only, both in _SETTINGS:
+        varied = claim.by_scheme if key == "scheme" else len({getattr(c, key) for c in usual}) > 1
+        if varied:
+            conditions.append(only if (fails,) in alone else both)
+    *first, last = conditions
+    return f"{', '.join(first)} and {last}" if first else last
+
+
+def _unmet(reading: Reading) -> dict[str, list[tuple[str, ...]]]:
+    """Return the other verdicts, each with the sets of conditions that give it."""
+    unmet: dict[str, list[tuple[str, ...]]] = {}
+    for judgement in reading.otherwise:
+        convention = judgement.convention
+        unusual = (words for key, value, words in _UNUSUAL if getattr(convention, key) == value)
+        unmet.setdefault(judgement.verdict, []).append(tuple(unusual))
+    # A condition that includes a weaker one adds nothing.
+    return {
+        verdict: list(dict.fromkeys(c for c in own if not any(set(o) < set(c) for o in own)))
+        for verdict, own in unmet.items()
+    }
 
 
 def _exceptions(claim: Claim, reading: Reading) -> str:
     """Return the other verdicts and the conventions that give them; empty if there are none."""
-    exceptions: dict[str, list[tuple[str, ...]]] = {}
-    for judgement in reading.otherwise:
-        convention = judgement.convention
-        unusual = (words for key, value, words in _UNUSUAL if getattr(convention, key) == value)
-        exceptions.setdefault(judgement.verdict, []).append(tuple(unusual))
     parts = []
-    for verdict, conditions in exceptions.items():
-        # A condition that includes a weaker one adds nothing.
-        kept = dict.fromkeys(c for c in conditions if not any(set(o) < set(c) for o in conditions))
-        conditions_met = ", or if ".join(map(" and ".join, kept))
-        parts.append(f'if {conditions_met}, it becomes "{verdict}"')
+    for verdict, conditions in _unmet(reading).items():
+        under = ", or under ".join(map(" with ".join, conditions))
+        comma = "," * (len(conditions) > 1)
+        parts.append(f'under {under}{comma} it becomes "{verdict}"')
     # The evidence for its inferred inputs is rounded to nearest under every convention.
-    return "; ".join(parts).format(cut_off="of this number alone " if claim.inferred else "")
+    alone = f"{_CUT} of this number alone"
+    return "; ".join(parts).replace(_CUT, alone if claim.inferred else _CUT)
 
+
+_EVERY_ROUNDING, _CUT_FAILS = "three ways of rounding", "both ways of rounding to nearest"
+_CUT = "cut digits"
+
+_SETTINGS = (
+    ("choices_exact", "rounded choices of the author", "the author's choices exact",
+     "the author's choices exact or rounded"),
+    ("header_exact", "an exact header of Table A-1", "the header of Table A-1 rounded",
+     "the header of Table A-1 exact or rounded"),
+    ("scheme", "the drag at the middle velocity", "the drag at the initial velocity",
+     "both schemes"),
+)  # fmt: skip
+"""The settings of a convention: its key, the unusual value, only the usual one, and both."""
 
 _UNUSUAL = (
-    ("rounding", Rounding.EVEN, "ties go to even"),
-    ("rounding", Rounding.CUT, "digits {cut_off}are cut off"),
-    ("choices_exact", False, "what the author chose is rounded, too"),
-    ("header_exact", True, "the header of Table A-1 is exact"),
-    ("scheme", Scheme.CENTERED, "the drag is taken at the middle velocity"),
+    ("rounding", Rounding.EVEN, "ties to even"),
+    ("rounding", Rounding.CUT, _CUT),
+    ("choices_exact", False, "rounded choices of the author"),
+    ("header_exact", True, "an exact header of Table A-1"),
+    ("scheme", Scheme.CENTERED, "the drag at the middle velocity"),
 )
 """The settings of a convention that differ from the usual one, in words."""
 

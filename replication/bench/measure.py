@@ -220,6 +220,9 @@ Point = dict[str, Any]
 
 DIGITS = range(1, 16)
 
+SOLVERS_DIGITS = (4, 6, 8, 10, 12)
+"""The digits for which the loosest setting of each solver is sought."""
+
 
 def bench(
     names: Sequence[str], repeat: int = 7, limit: float = 5.0, quiet: bool | None = True
@@ -255,7 +258,15 @@ def bench(
                 "points": points,
                 "fastest": [fastest(points, *question) for question in asked],
             })  # fmt: skip
-    return {"machine": _machine(), "repeat": repeat, "limit": limit, "cases": measured}
+    runs = [case["points"] for case in measured]
+    sought = product(SOLVERS, MEASURES, SOLVERS_DIGITS)
+    return {
+        "machine": _machine(),
+        "repeat": repeat,
+        "limit": limit,
+        "cases": measured,
+        "settings": [loosest(runs, *question) for question in sought],
+    }
 
 
 def _next(turn: Iterator[Point]) -> Point:
@@ -335,6 +346,32 @@ def fastest(points: Sequence[Point], many: bool, measure: Measure, digits: int) 
     method = first and f"{first['method']}, {first['setting']}"
     asked = {"measure": measure, "many": many, "digits": digits}
     return asked | {"method": method, "best": first and first["best"]}
+
+
+def loosest(
+    runs: Sequence[Sequence[Point]], method: str, measure: Measure, digits: int
+) -> dict[str, Any]:
+    """Return the loosest setting of a solver that gives these digits in all cases, and its time.
+
+    `runs` has the points of each case, those of a solver from its loosest setting to its tightest;
+    `best` [s] is that of the slowest case. Both are None if no setting does. A solver does not give
+    the digits of its tolerance: with 1e-8 one may be off by 1e-7 and another by 1e-9.
+    """
+    of_solver = [
+        [p for p in run if (p["method"], p["measure"]) == (method, measure)] for run in runs
+    ]
+    able = (
+        points for points in zip(*of_solver, strict=True)
+        if max(map(met, points)) <= error_for(digits)
+    )  # fmt: skip
+    first = next(able, None)
+    return {
+        "method": method,
+        "measure": measure,
+        "digits": digits,
+        "setting": first and first[0]["setting"],
+        "best": first and max(point["best"] for point in first),
+    }
 
 
 def _machine() -> dict[str, Any]:

@@ -46,6 +46,7 @@ def texts(record: dict[str, Any], width: int = 10_000) -> dict[str, str]:
         "",
         "What should I use for N digits?",
         *(prose(answer, width, hanging="    ") for answer in _answers(cases)),
+        *_settings(record["settings"], width),
         "",
     ]
     rows = [{"case": case["name"], **point} for case in cases for point in case["points"]]
@@ -104,6 +105,28 @@ def _answers(cases: Sequence[dict[str, Any]]) -> Iterator[str]:
         times = [1e6 * answer["best"] for answer in answers if answer["best"]]
         taken = f", {_span(times)} us" if times else ""
         yield f"  {asked}, {digits} digit{'' if digits == '1' else 's'}: {answer}{taken}"
+
+
+def _settings(settings: Sequence[dict[str, Any]], width: int) -> Iterator[str]:
+    """Yield a table for each quantity: of each solver the loosest settings by number of digits."""
+    for measure, title in MEASURES.items():
+        asked = [answer for answer in settings if answer["measure"] == measure]
+        digits = dict.fromkeys(f"{answer['digits']} digits" for answer in asked)
+        rows = [
+            (method, *map(_setting, group))
+            for method, group in groupby(asked, itemgetter("method"))
+        ]
+        yield ""
+        yield f"Which setting of a solver gives N digits of the {title} in every case above?"
+        yield columns([("solver", *digits), *rows], width)
+
+
+def _setting(answer: Mapping[str, Any]) -> str:
+    if answer["setting"] is None:
+        return "-"
+    microseconds = 1e6 * answer["best"]
+    shown = f"{microseconds:.0f}" if microseconds >= 1e3 else number(microseconds, 3)
+    return f"{answer['setting']}: {shown} us"
 
 
 def _span(values: Sequence[float]) -> str:

@@ -9,7 +9,7 @@ How a workbook becomes six numbers:
    a constant, and the velocity falls by the deceleration times the same constant.
 3. `fit` probes one row that has the usual formulas: it gives the row depths and velocities that are
    independent of each other, and sees to what each column responds, and how. `rows` fits a table
-   without formulas to its numbers, with their digits as uncertainty. The result (`six`) is
+   without formulas to its numbers; what their digits admit are the errors of the six (`six`):
 
        x += c w    a = (G u^2 + H) (D x - x^2), constant beyond D/2    v -= e a    from V on
 
@@ -20,7 +20,7 @@ How six numbers become a verdict:
 4. `responses` makes each cell and each typed number that the row rests on one percent larger and
    fits again. The exponents say what it is (`roles`): G^1 is the target's density, H^1 its
    resistance, G^-1 H^-1 the mass, D^1 the radius, c^1 e^1 the step. `labels` and `words` only tell
-   what responds alike, and name things.
+   what responds alike, and name things. `idle` finds the table of numbers that no table reads.
 5. `units`: D = 2R, 2GM/pi = rho_t, HM/pi = R_t, M = 4/3 pi R^3 rho_p, R_t = beta Y_t, c = e = dt
    have to hold. A power of ten is a unit: the one statement is found that mends all. Another ratio
    is a slip: it is looked for where the equation is written (`judge`, `constants`).

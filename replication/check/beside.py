@@ -35,14 +35,14 @@ def units_beside(exam: Examination, inputs: Inputs) -> None:
         if line.unit is None or not line.sure or line.unit_place is None:
             continue
         own = replace(fitted.force, place=line.place(index), sign=1.0, e=None)
-        off = _power_off(exam, inputs, line, own)
+        off = _head_power_off(exam, inputs, line, own)
         if off:
             cells = [line.place(i) for k, i in sorted(table.rows.items()) if k >= 1]
             text = f"the head gives {line.unit}, but in that unit the numbers are {times_too(off)}"
             exam.add("unit", [line.unit_place, *cells], None, text, line.unit)
 
 
-def _power_off(exam: Examination, inputs: Inputs, line: Line, own: Force) -> int:
+def _head_power_off(exam: Examination, inputs: Inputs, line: Line, own: Force) -> int:
     """By which power of ten the numbers of a column are too large for its unit; 0 if by none."""
     right = next(
         (
@@ -54,7 +54,7 @@ def _power_off(exam: Examination, inputs: Inputs, line: Line, own: Force) -> int
     )
     if right is None:
         return 0
-    constant = _constant(own, exam.fitted.six, right[0])
+    constant = _constant_factor(own, exam.fitted.six, right[0])
     if constant is None:
         return 0
     off = math.log10(constant / right[1] * float(to_si(line.unit or "")))
@@ -79,7 +79,7 @@ def _quantities(exam: Examination, inputs: Inputs) -> list[tuple[str, str, float
     return known
 
 
-def _constant(own: Force, six: Six, kind: str) -> float | None:
+def _constant_factor(own: Force, six: Six, kind: str) -> float | None:
     """The factor of a column to its quantity by the six numbers; None if it is another quantity."""
     if not (six.G > 0 and six.H > 0 and 0 < six.D < math.inf):
         return None

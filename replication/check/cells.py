@@ -9,14 +9,14 @@ import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from replication.check.examination import Difference, Examination
+from replication.check.examination import Departure, Examination
 from replication.check.fit import Probe
 from replication.check.roles import Inputs
 from replication.check.six import EXACT, start_of_row
-from replication.check.table import LEAST, Line, Table, behind, runs
+from replication.check.table import LEAST, Line, SchemeTable, behind, runs
 from replication.check.words import COLUMNS, title
 from replication.reading import quoted
-from spreadsheets.evaluate import Evaluator, Shape, written
+from spreadsheets.evaluate import Evaluator, Shape, formula_text
 from spreadsheets.foreign import Position
 from spreadsheets.scalars import Error, LiteralKey, Scalar
 
@@ -31,10 +31,10 @@ _MOST_PROBED = 40
 def formula_at(exam: Examination, place: Position) -> str:
     """The formula of a cell, cut if it is long; for a typed one, "the number"."""
     shape = exam.table.evaluator.formulas.get(place)
-    return written(shape.key, place[1], place[2])[:200] if shape else "the number"
+    return formula_text(shape.key, place[1], place[2])[:200] if shape else "the number"
 
 
-def feeding(table: Table) -> list[Line]:
+def feeding(table: SchemeTable) -> list[Line]:
     """The lines beside the table that its columns read, in order of calculation."""
     read: set[Line] = set()
     found: list[Line] = []
@@ -84,15 +84,15 @@ def predicted(exam: Examination, role: str, k: int, mended: Mended | None = None
     elif role == "depth":
         result = _next_depth(exam, k, mended)
     elif role == "deceleration":
-        result = _brake(exam, k, mended)
+        result = _next_brake(exam, k, mended)
     elif role == "velocity_initial" and "velocity_final" in table.lines:
-        result = _number(exam, mended, "velocity_final", k - 1)
+        result = _number_meant(exam, mended, "velocity_final", k - 1)
     else:
         result = _next_velocity(exam, k if role == "velocity_final" else k - 1, mended)
     return result if result is not None and math.isfinite(result) else None
 
 
-def _number(exam: Examination, mended: Mended, role: str, k: int) -> float | None:
+def _number_meant(exam: Examination, mended: Mended, role: str, k: int) -> float | None:
     """The number of a cell, or what it should be."""
     right = mended.get((role, k))
     return exam.table.number(role, k) if right is None else right
@@ -100,28 +100,28 @@ def _number(exam: Examination, mended: Mended, role: str, k: int) -> float | Non
 
 def _next_time(exam: Examination, k: int, mended: Mended) -> float | None:
     """The time in row k by that of the row before."""
-    before, step = _number(exam, mended, "time", k - 1), exam.fitted.time
+    before, step = _number_meant(exam, mended, "time", k - 1), exam.fitted.time
     return None if before is None or step is None else before + step
 
 
 def _start_velocity(exam: Examination, k: int, mended: Mended) -> float | None:
     """The velocity at the start of row k."""
     role, lag = start_of_row(exam.table)
-    return _number(exam, mended, role, k + lag)
+    return _number_meant(exam, mended, role, k + lag)
 
 
 def _next_depth(exam: Examination, k: int, mended: Mended) -> float | None:
     """The depth in row k by that of the row before and the velocity; half a step in the first."""
-    before, v = _number(exam, mended, "depth", k - 1), _start_velocity(exam, k, mended)
+    before, v = _number_meant(exam, mended, "depth", k - 1), _start_velocity(exam, k, mended)
     if v is None or (before is None and k != 1):
         return None
     c = exam.fitted.six.c
     return c * v / 2 if k == 1 or before is None else before + c * v
 
 
-def _brake(exam: Examination, k: int, mended: Mended) -> float | None:
+def _next_brake(exam: Examination, k: int, mended: Mended) -> float | None:
     """The deceleration in row k by its depth and velocity, with the sign of its column."""
-    x, u = _number(exam, mended, "depth", k), _start_velocity(exam, k, mended)
+    x, u = _number_meant(exam, mended, "depth", k), _start_velocity(exam, k, mended)
     if x is None or u is None:
         return None
     return exam.fitted.sign * _force(exam, x, u)
@@ -129,9 +129,9 @@ def _brake(exam: Examination, k: int, mended: Mended) -> float | None:
 
 def _next_velocity(exam: Examination, k: int, mended: Mended) -> float | None:
     """The velocity at the end of row k by that at its start and its deceleration."""
-    v, a = _start_velocity(exam, k, mended), _number(exam, mended, "deceleration", k)
+    v, a = _start_velocity(exam, k, mended), _number_meant(exam, mended, "deceleration", k)
     if a is None and "deceleration" not in exam.table.lines:
-        a = _brake(exam, k, mended)
+        a = _next_brake(exam, k, mended)
     return None if v is None or a is None else v - exam.fitted.six.e * exam.fitted.sign * a
 
 
@@ -216,7 +216,7 @@ def _blank_rows(exam: Examination) -> None:
             cells = sorted(line.place(i) for i in range(index + 1, after) for line in usual)
             text = f"{BLANK_ROW}, though the formulas below it read it"
             rank = (1, k + 0.5, 0)
-            exam.differences.append(Difference("odd formula", tuple(cells), None, None, text, rank))
+            exam.differences.append(Departure("odd formula", tuple(cells), None, None, text, rank))
 
 
 def _reads_one(evaluator: Evaluator, place: Position, cells: Collection[Position]) -> bool:
@@ -308,7 +308,7 @@ def _adds(line: Line, index: int) -> bool:
     return rows == [before]
 
 
-def _rows_of(table: Table, line: Line, role: str | None) -> Iterator[tuple[int, Position]]:
+def _rows_of(table: SchemeTable, line: Line, role: str | None) -> Iterator[tuple[int, Position]]:
     """The rows of a line that should have its usual formula, each with its cell."""
     for k in sorted(table.rows):
         if k <= 0 or (k == 1 and role in ("depth", "velocity_initial")):
@@ -342,7 +342,7 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
         if is_last and shape is None and place not in evaluator.values:
             continue
         probed += 1
-        verdict = _verdict(exam, inputs, line, role, k, place, probed <= _MOST_PROBED)
+        verdict = _verdict_on_cell(exam, inputs, line, role, k, place, probed <= _MOST_PROBED)
         if verdict is not None:
             odd[place] = verdict
     groups = runs({p: (v[0], v[1]) for p, v in odd.items()}, table.across)
@@ -403,13 +403,15 @@ def _odd_cell(exam: Examination, line: Line, role: str | None, k: int, place: Po
     shown = exam.table.evaluator.value(place, {}, shape=usual)
     applies = type(shown) is float
     if type(shown) is float:
-        close = expected is None or math.isclose(shown, expected, rel_tol=1e-6, abs_tol=_size(line))
+        close = expected is None or math.isclose(
+            shown, expected, rel_tol=1e-6, abs_tol=_least_size(line)
+        )
         expected = shown if close or role is None else expected
-    instead = written(usual.key, place[1], place[2])
+    instead = formula_text(usual.key, place[1], place[2])
     return _Cell(line, role, k, place, expected, instead, applies)
 
 
-def _verdict(
+def _verdict_on_cell(
     exam: Examination, inputs: Inputs, line: Line, role: str | None, k: int, place: Position,
     probe: bool,
 ) -> Verdict | None:  # fmt: skip
@@ -417,7 +419,7 @@ def _verdict(
     odd = _odd_cell(exam, line, role, k, place)
     shape = exam.table.evaluator.formulas.get(place)
     if shape is None:
-        return _typed(exam, odd)
+        return _verdict_on_typed(exam, odd)
     if type(odd.value) is not float:
         return _without_number(odd)
     if odd.expected is None:
@@ -431,7 +433,7 @@ def _verdict(
 
 def own(shape: Shape, place: Position) -> str:
     """The formula of a cell, cut if it is long."""
-    return written(shape.key, place[1], place[2])[:200]
+    return formula_text(shape.key, place[1], place[2])[:200]
 
 
 def _other_number(odd: _Cell, formula: str) -> Verdict:
@@ -490,7 +492,7 @@ def as_typed(value: Scalar) -> Scalar:
     return quoted(value) if isinstance(value, str) else value
 
 
-def _typed(exam: Examination, odd: _Cell) -> Verdict | None:
+def _verdict_on_typed(exam: Examination, odd: _Cell) -> Verdict | None:
     """The verdict on a cell without a formula."""
     value, line = odd.value, odd.line
     if value is None:
@@ -532,7 +534,7 @@ def _goes_on(line: Line, place: Position) -> bool:
     return line.usual is not None and line.evaluator.formulas.get(line.place(index)) is line.usual
 
 
-def _size(line: Line) -> float:
+def _least_size(line: Line) -> float:
     return 1e-12 * max(map(abs, line.values.values()), default=0.0)
 
 
@@ -562,7 +564,7 @@ def _spread(exam: Examination, line: Line, expected: float) -> float:
                 abs(exam.fitted.six.e) * 2 * brake.rounding(max(map(abs, brake.values.values())))
             )
         else:
-            spread += exam.fitted.slack * speed.largest_change
+            spread += 2 * exam.fitted.rough * speed.largest_change
     if role == "depth":
         spread += 2 * line.rounding(max(map(abs, line.values.values())))
     if role == "deceleration":

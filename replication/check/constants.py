@@ -7,9 +7,9 @@ from replication.check.cells import formula_at
 from replication.check.examination import Examination
 from replication.check.fit import Probe
 from replication.check.labels import label_of
-from replication.check.responses import FAMILIES, Source, is_plain
+from replication.check.responses import FAMILIES, Influence, is_plain
 from replication.check.roles import Inputs
-from replication.check.table import address
+from replication.check.table import cell_name
 from replication.check.words import input_roles, title
 from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Position
@@ -45,7 +45,7 @@ def typed_constants(
         if (cells[0], role) not in told:
             told.add((cells[0], role))
             where = (
-                place if isinstance(place, str) else address(place, place[0] != exam.table.sheet)
+                place if isinstance(place, str) else cell_name(place, place[0] != exam.table.sheet)
             )
             text = f"{title(role)} is typed as {source.value:.10g}, where {where} should be read"
             exam.add("typed constant", cells, where, text, formula_at(exam, cells[0]))
@@ -64,7 +64,7 @@ def typed_stops(exam: Examination, inputs: Inputs) -> None:
         return
     if stop.cell is not None and not exam.on_own_sheets(stop.cell):
         return
-    where = address(stop.cell, stop.cell[0] != exam.table.sheet) if stop.cell else stop.name
+    where = cell_name(stop.cell, stop.cell[0] != exam.table.sheet) if stop.cell else stop.name
     speeds = [v for (role, _), v in probe.base.items() if role.startswith("velocity") and v > 0]
     for (role, offset), place in probe.state.items():
         shape = exam.table.evaluator.formulas.get(place)
@@ -110,7 +110,8 @@ def _cells_with(exam: Examination, place: Position) -> list[Position]:
 
 
 def _cell_for(
-    source: Source, family: str, inputs: Inputs, beside: Sequence[Position], evaluator: Evaluator,
+    source: Influence, family: str, inputs: Inputs, beside: Sequence[Position],
+    evaluator: Evaluator,
 ) -> tuple[str, Position | str] | None:  # fmt: skip
     """The role and the cell, or the name, of what a typed number repeats; None if there is none.
 
@@ -143,7 +144,7 @@ def _cell_for(
 
 
 def _unread_formula(
-    source: Source, family: str, inputs: Inputs, beside: Sequence[Position], evaluator: Evaluator
+    source: Influence, family: str, inputs: Inputs, beside: Sequence[Position], evaluator: Evaluator
 ) -> tuple[str, Position | str] | None:
     """The one formula beside that computes the mass, or the resistance, and that nothing reads."""
     role = {"inertia": "mass", "strength": "resistance"}.get(family)
@@ -163,7 +164,7 @@ def _is_same(value: float, typed: float) -> bool:
     return math.isclose(value, typed, rel_tol=1e-12)
 
 
-def _is_sole(source: Source, inputs: Inputs) -> bool:
+def _is_sole(source: Influence, inputs: Inputs) -> bool:
     """Whether nothing else that the rows rest on responds as a typed number does."""
     return all(other is source or other.family != source.family for other in inputs.sources)
 

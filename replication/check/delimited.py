@@ -17,7 +17,16 @@ from pathlib import Path
 from replication.check.words import is_unit
 from replication.columns import csv_rows
 from replication.reading import place as named
-from spreadsheets.foreign import MAX_CELLS, MAX_FILE, MAX_TEXT, Book, Cell, Position, Value, read
+from spreadsheets.foreign import (
+    MAX_CELLS,
+    MAX_FILE,
+    MAX_TEXT,
+    Book,
+    Position,
+    StoredCell,
+    Value,
+    read,
+)
 
 SUFFIXES = frozenset({".csv", ".tsv", ".tab", ".txt", ".dat"})
 _WORKBOOKS = (b"PK\x03\x04", bytes.fromhex("D0CF11E0A1B11AE1"))
@@ -49,7 +58,7 @@ def read_any(path: Path) -> Book:
     with named(str(path)):
         if len(content) > MAX_FILE:
             raise ValueError(f"has more than {MAX_FILE >> 20} MB")
-        return _book(path, _decoded(content))
+        return _book(path, _file_text(content))
 
 
 def where(book: Book, place: Position) -> str:
@@ -63,7 +72,7 @@ def column_at(book: Book, column: int) -> str:
     return f"column {head!r}" if head else f"column {column}"
 
 
-def _decoded(content: bytes) -> str:
+def _file_text(content: bytes) -> str:
     """The text of a file: UTF-8, UTF-16 with its mark, or as Windows writes it in the West."""
     if content.startswith((b"\xff\xfe", b"\xfe\xff")):
         encoding = "utf-16"
@@ -89,18 +98,18 @@ def _book(path: Path, text: str) -> Book:
     width = Counter(len(rows[line]) for line in numeric).most_common(1)[0][0]
     first = next(line for line in numeric if len(rows[line]) == width)
     _add_heads(rows, lines, first, width, separator)
-    cells: dict[tuple[int, int], Cell] = {}
+    cells: dict[tuple[int, int], StoredCell] = {}
     digits: dict[tuple[int, int], tuple[int, int]] = {}
     for line, texts in rows.items():
         for column, given in enumerate(texts, 1):
             if given.lower() in _ABSENT:
                 continue
-            value: Value | None = _number(given)
+            value: Value | None = _cell_number(given)
             if value is None:
                 value = given[:MAX_TEXT]
             else:
-                digits[line, column] = _digits(given)
-            cells[line, column] = Cell(None, value)
+                digits[line, column] = _printed_digits(given)
+            cells[line, column] = StoredCell(None, value)
         if len(cells) > MAX_CELLS:
             raise ValueError(f"holds more than {MAX_CELLS:,} numbers")
     heads = {column: head for column in range(1, width + 1)
@@ -119,7 +128,7 @@ def _split(lines: Sequence[str]) -> tuple[_Rows, str]:
     problem: ValueError | None = None
     for separator in candidates:
         try:
-            rows = dict(_rows(lines, separator))
+            rows = dict(_line_cells(lines, separator))
         except ValueError as error:
             problem = problem or error
             continue
@@ -136,7 +145,7 @@ def _split(lines: Sequence[str]) -> tuple[_Rows, str]:
     return rows, separator
 
 
-def _rows(lines: Sequence[str], separator: str) -> Iterator[tuple[int, list[str]]]:
+def _line_cells(lines: Sequence[str], separator: str) -> Iterator[tuple[int, list[str]]]:
     """The cells of each line that is not blank and no comment."""
     kept = ("" if line.lstrip().startswith(_COMMENTS) else line for line in lines)
     if separator == " ":
@@ -150,25 +159,25 @@ def _rows(lines: Sequence[str], separator: str) -> Iterator[tuple[int, list[str]
 
 def _is_row(cells: Sequence[str]) -> bool:
     """Whether a line is a row of two or more numbers, some of which may be absent."""
-    numbers = sum(_number(cell) is not None for cell in cells)
+    numbers = sum(_cell_number(cell) is not None for cell in cells)
     absent = sum(cell.lower() in _ABSENT for cell in cells)
     return numbers > 1 and numbers + absent == len(cells)
 
 
-def _number(text: str) -> float | None:
+def _cell_number(text: str) -> float | None:
     """The number that a cell holds, or None.
 
-    >>> _number("1,5e-3"), _number("1.234,5"), _number("1,234.5"), _number("-2.D+01"), _number("v1")
-    (0.0015, 1234.5, 1234.5, -20.0, None)
+    >>> [_cell_number(text) for text in ("1,5e-3", "1.234,5", "1,234.5", "-2.D+01", "v1")]
+    [0.0015, 1234.5, 1234.5, -20.0, None]
     """
-    plain = _plain(text)
+    plain = _plain_number(text)
     if not _NUMBER.fullmatch(plain):
         return None
     value = float(re.sub("[Dd]", "e", plain.replace(",", ".")))
     return value if math.isfinite(value) else None
 
 
-def _plain(text: str) -> str:
+def _plain_number(text: str) -> str:
     """The text of a number without marks of thousands, and with an ordinary minus."""
     plain = re.sub("[\u00a0\u202f']", "", text.strip()).replace("\u2212", "-")
     if match := _GROUPED.match(plain):
@@ -176,13 +185,13 @@ def _plain(text: str) -> str:
     return plain
 
 
-def _digits(text: str) -> tuple[int, int]:
+def _printed_digits(text: str) -> tuple[int, int]:
     """The number of digits of a number as it is printed, and the power of ten of the last one.
 
-    >>> _digits("500.00"), _digits("0.050"), _digits("1.20e-05"), _digits("3000")
-    ((5, -2), (2, -3), (3, -7), (4, 0))
+    >>> [_printed_digits(text) for text in ("500.00", "0.050", "1.20e-05", "3000")]
+    [(5, -2), (2, -3), (3, -7), (4, 0)]
     """
-    mantissa, *exponent = re.split("[EeDd]", _plain(text).replace(",", "."))
+    mantissa, *exponent = re.split("[EeDd]", _plain_number(text).replace(",", "."))
     whole, _, decimals = mantissa.lstrip("+-").partition(".")
     power = int(exponent[0]) if exponent else 0
     return len((whole + decimals).lstrip("0")), power - len(decimals)
@@ -202,7 +211,7 @@ def _add_heads(rows: _Rows, lines: Sequence[str], first: int, width: int, separa
     if not above or max(above) < first - 1:
         _take_comment(rows, lines, first, width, separator)
     head = max((line for line in rows if line < first), default=None)
-    counted = [_number(cells[0]) for line, cells in rows.items() if line >= first][:_LEAST]
+    counted = [_cell_number(cells[0]) for line, cells in rows.items() if line >= first][:_LEAST]
     if head is not None and len(rows[head]) == width - 1 and _counts(counted):
         rows[head] = ["", *rows[head]]  # row numbers mostly have no head
 
@@ -219,7 +228,7 @@ def _take_comment(
         heads = [cell.strip() for cell in next(csv.reader([bare], delimiter=separator), [])]
         if separator == " " or len(heads) < 2:
             heads = _HEAD.findall(bare)
-        if len(heads) == width and all(_number(head) is None for head in heads):
+        if len(heads) == width and all(_cell_number(head) is None for head in heads):
             rows[line] = heads
             return
 
@@ -230,7 +239,7 @@ def _counts(values: Sequence[float | None]) -> bool:
     return all(b - a == 1 for a, b in pairwise(known))
 
 
-def _head_above(cells: Mapping[tuple[int, int], Cell], first: int, column: int) -> str:
+def _head_above(cells: Mapping[tuple[int, int], StoredCell], first: int, column: int) -> str:
     """The farthest text right above the numbers of a column; a unit may stand below it."""
     texts = []
     for line in range(first - 1, max(0, first - 6), -1):

@@ -13,10 +13,10 @@ from pathlib import Path
 from unicodedata import normalize
 
 from replication.check.difference import Difference, counted
-from replication.check.following import Reading, calculation_order
+from replication.check.following import CellsRead, calculation_order
 from replication.check.layout import Layout
-from replication.check.references import Reference, words
-from spreadsheets.foreign import Book, Cell, Position, Value, read, without_zeros
+from replication.check.references import TextReference, words
+from spreadsheets.foreign import Book, Position, StoredCell, Value, read, without_zeros
 
 KINDS = ("setting", "added", "removed", "moved", "name", "formula", "value")
 """The kinds of differences that `diff` reports."""
@@ -69,13 +69,13 @@ def _rounds(exact: float, rounded: float, digits: int) -> bool:
 
 def diff(
     a: Path, b: Path, *, values_only: bool = False, allowed: Tolerance | None = None
-) -> "Comparison":
+) -> "BookComparison":
     """Compare two workbooks. Raises WorkbookError for a file that cannot be read.
 
     `values_only`: formulas are compared only where one of the files stores no value.
     """
     before, after = (without_zeros(read(path)) for path in (a, b))
-    return Comparison(before, after, values_only, allowed or Tolerance())
+    return BookComparison(before, after, values_only, allowed or Tolerance())
 
 
 def not_stored(book: Book) -> list[Position]:
@@ -89,7 +89,7 @@ _Differing = Mapping[Position, _Differs]
 """The cells that differ, by their places in the second workbook."""
 
 
-class Comparison:
+class BookComparison:
     """The result of `coldspray diff`: causes in order of calculation, then what follows from them.
 
     A difference is placed in the second workbook, or in the first if the second has no such cell.
@@ -154,7 +154,7 @@ class Comparison:
     def _place_of(self, meaning: str) -> Position:
         """The first cell that a name stands for, or the first of the workbook."""
         corner = (next(iter(self.after.sheets)), 1, 1)
-        areas = (word for word in words(f"={meaning}") if isinstance(word, Reference))
+        areas = (word for word in words(f"={meaning}") if isinstance(word, TextReference))
         area = next(areas, None)
         sheet = None if area is None else self.after.called.get(area.sheet.upper())
         return corner if area is None or sheet is None else (sheet, area.top, area.left)
@@ -174,7 +174,7 @@ class Comparison:
         if (a.array is None) != (b.array is None):
             kinds = ("an array formula", "an ordinary formula")[:: 1 if b.array else -1]
             return *shown, f"{kinds[0]} stands in place of {kinds[1]}"
-        if a.array and b.array and _size(a.array) != _size(b.array):
+        if a.array and b.array and _area_size(a.array) != _area_size(b.array):
             return *shown, "the array formula fills another number of rows or columns"
         text = self.how_formulas_differ(a.formula, b.formula, old, new)
         return (*shown, text) if text else None
@@ -190,14 +190,16 @@ class Comparison:
         if not are_alike:
             moved = "the text is the same, but it no longer reads the same cells"
             return moved if a == b else "the formulas differ"
-        fixed = ([word.fixed for word in x if isinstance(word, Reference)] for x in (p, q))
+        fixed = ([word.fixed for word in x if isinstance(word, TextReference)] for x in (p, q))
         if next(fixed) != next(fixed):
             return "the formulas read the same cells, but $ fixes different references"
         return None
 
-    def same(self, a: str | Reference, b: str | Reference, old: Position, new: Position) -> bool:
+    def same(
+        self, a: str | TextReference, b: str | TextReference, old: Position, new: Position
+    ) -> bool:
         """Whether two words of formulas are the same, and read the same cells if they read any."""
-        if isinstance(a, Reference) and isinstance(b, Reference):
+        if isinstance(a, TextReference) and isinstance(b, TextReference):
             return self.layout.follows(a, b, old, new)
         return a == b
 
@@ -235,7 +237,7 @@ class Comparison:
     def contents(self, formulas: _Differing, values: _Differing) -> Iterator[Difference]:
         """Report formulas and values: causes, then what follows from them, then last digits."""
         traced = self.traced(formulas, values)
-        reading = Reading(self.after, {**formulas, **traced})
+        reading = CellsRead(self.after, {**formulas, **traced})
         number = {sheet: k for k, sheet in enumerate(self.after.sheets)}
         typed_first = sorted(
             {**formulas, **traced},
@@ -263,7 +265,10 @@ class Comparison:
             for new, old in self.old_place.items()
             if self.before[old].value != self.after[new].value
         ]
-        now, was = Reading(self.after, {*added, *changed, *formulas}), Reading(self.before, removed)
+        now, was = (
+            CellsRead(self.after, {*added, *changed, *formulas}),
+            CellsRead(self.before, removed),
+        )
         traced = {}
         for new, (a, b, text) in values.items():
             if text != LAST and new in formulas:
@@ -274,24 +279,24 @@ class Comparison:
         return traced
 
 
-def _has_no_value(a: Cell, b: Cell) -> bool:
+def _has_no_value(a: StoredCell, b: StoredCell) -> bool:
     """Whether one of two cells holds a formula for which no value is stored."""
     return any(cell.formula is not None and cell.value is None for cell in (a, b))
 
 
-def _shown_formula(cell: Cell) -> Value | None:
+def _shown_formula(cell: StoredCell) -> Value | None:
     """The formula of a cell, in braces if it is an array formula; or else its value."""
     if cell.formula is None:
         return _quoted(cell)
     return f"{{{cell.formula}}}" if cell.array else cell.formula
 
 
-def _size(area: tuple[int, int, int, int]) -> tuple[int, int]:
+def _area_size(area: tuple[int, int, int, int]) -> tuple[int, int]:
     top, left, bottom, right = area
     return bottom - top, right - left
 
 
-def _quoted(cell: Cell) -> Value | None:
+def _quoted(cell: StoredCell) -> Value | None:
     """The value of a cell; quotes tell a text that spells a truth value or an error from one."""
     text = cell.value
     if isinstance(text, str) and not cell.error:

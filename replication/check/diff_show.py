@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from replication import page
-from replication.check.diff import FOLLOWS, LAST, Comparison, not_stored
+from replication.check.diff import FOLLOWS, LAST, BookComparison, not_stored
 from replication.check.difference import Difference, counted
 from replication.check.shown import NO_LIMIT, anchor, drawn, fitted, safe, whereabouts, wrapped
 from replication.reading import printable
@@ -22,7 +22,7 @@ Record = Mapping[str, Any]
 # ---- for a program
 
 
-def diff_record(comparison: Comparison) -> dict[str, Any]:
+def diff_record(comparison: BookComparison) -> dict[str, Any]:
     """The document of `coldspray diff --json`; `expected` is what the first workbook holds."""
     differences, books = comparison.differences, (comparison.before, comparison.after)
     notes = [note for book in books for note in book.notes]
@@ -34,7 +34,7 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
             notes.append(f"{printable(str(book.path))}: for {some} {said}")
     return {
         "file": " and ".join(printable(str(book.path)) for book in books),
-        "verdict": _verdict(comparison),
+        "verdict": _diff_verdict(comparison),
         "clean": not differences,
         "summary": dict(Counter(d.kind for d in differences)),
         "first": differences[0].record() if differences else None,
@@ -43,7 +43,7 @@ def diff_record(comparison: Comparison) -> dict[str, Any]:
     }
 
 
-def _verdict(comparison: Comparison) -> str:
+def _diff_verdict(comparison: BookComparison) -> str:
     """The result in one sentence."""
     differences = comparison.differences
     if not differences:
@@ -66,12 +66,12 @@ def _verdict(comparison: Comparison) -> str:
 # ---- for a person at a terminal
 
 
-def contents(difference: Record) -> str:
+def change_contents(difference: Record) -> str:
     """Say what a cell held and what it holds now.
 
-    >>> contents({"kind": "value", "expected": 500.0, "found": None})
+    >>> change_contents({"kind": "value", "expected": 500.0, "found": None})
     'was 500.0, is blank'
-    >>> contents({"kind": "value", "expected": 11.0, "found": "11"})
+    >>> change_contents({"kind": "value", "expected": 11.0, "found": "11"})
     "was 11.0, is '11'"
     """
     values = difference["expected"], difference["found"]
@@ -91,12 +91,12 @@ def _is_plain(text: str) -> bool:
     return text.startswith(("#", "'")) or text in ("TRUE", "FALSE")
 
 
-def text(record: Record, width: int = NO_LIMIT) -> str:
+def diff_text(record: Record, width: int = NO_LIMIT) -> str:
     """The result for a terminal of this width, the most important first."""
-    return fitted(_lines(record), width)
+    return fitted(_diff_lines(record), width)
 
 
-def _lines(record: Record) -> Iterator[str]:
+def _diff_lines(record: Record) -> Iterator[str]:
     yield record["verdict"]
     yield ""
     yield safe(record["file"], 200)
@@ -106,7 +106,7 @@ def _lines(record: Record) -> Iterator[str]:
         if number < 2:
             yield from ("", "Then" if number else "First in order of calculation")
         yield f"  {whereabouts(difference)}, {difference['kind']}"
-        yield f"    {contents(difference)}"
+        yield f"    {change_contents(difference)}"
         yield wrapped(safe(difference["explanation"], 400), "    ")
     if len(differences) > _MOST:
         yield f"  and {len(differences) - _MOST} more, which --json lists"
@@ -115,7 +115,7 @@ def _lines(record: Record) -> Iterator[str]:
 # ---- for a browser
 
 
-def html(record: Record, differences: Sequence[Difference], book: Book) -> str:
+def diff_page(record: Record, differences: Sequence[Difference], book: Book) -> str:
     """The page of a record, without scripts and with nothing loaded from outside.
 
     `differences` are those of the record, with their cells in the book that is drawn.
@@ -131,13 +131,13 @@ def html(record: Record, differences: Sequence[Difference], book: Book) -> str:
         "notes": notes,
         "head": page.head("replication.report", "replication.check"),
         "listed": [(entry, anchor(d.place, marked)) for entry, d in pairs],
-        "sheets": [_drawn(name, marked, shown, book) for name in marked],
+        "sheets": [_drawn_pair(name, marked, shown, book) for name in marked],
     }
-    filters = {"safe": safe, "contents": contents}
+    filters = {"safe": safe, "contents": change_contents}
     return page.from_template("replication.check", "diff.html.j2", parts, filters)
 
 
-def _drawn(
+def _drawn_pair(
     name: str, sheets: Sequence[str], differences: Sequence[Difference], book: Book
 ) -> Record:
     """A sheet with its differences marked, with the values that are stored."""

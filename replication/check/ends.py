@@ -14,11 +14,18 @@ from replication.check.cells import (
 )
 from replication.check.examination import NO_FAULT, Examination, near
 from replication.check.fit import grows_beyond, is_bounded
-from replication.check.responses import Source, is_plain
+from replication.check.responses import Influence, is_plain
 from replication.check.roles import Inputs
-from replication.check.six import VARIANTS, end_of_row, first_speed, origin, run, start_of_row
-from replication.check.table import address
-from replication.check.taken import case_of, report_inputs
+from replication.check.six import (
+    VARIANTS,
+    end_of_row,
+    first_speed,
+    first_written,
+    run_scheme,
+    start_of_row,
+)
+from replication.check.table import cell_name
+from replication.check.taken import report_case, report_inputs
 from replication.check.words import input_roles, times_too, title
 from spreadsheets.foreign import Position
 
@@ -70,7 +77,7 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
         if is_formula:
             _first_response(exam, place, inputs)
         elif line.computed and step is not None and step.cell is not None:
-            text = f"the first depth is typed, though it rests on {address(step.cell, True)}"
+            text = f"the first depth is typed, though it rests on {cell_name(step.cell, True)}"
             exam.add("typed number", [place], wanted, text + RIGHT_HERE)
         return
     named = {"no half step": 2.0, "starts at zero": 0.0}
@@ -114,7 +121,7 @@ def _first_response(exam: Examination, place: Position, inputs: Inputs) -> None:
             continue  # it reads a first velocity that is wrong itself
         now = evaluator.value(place, {source.cell: source.value * 1.01}, within=cone)
         if type(now) is float and type(value) is float and not near(now / value, 1.01):
-            where = address(source.cell, True)
+            where = cell_name(source.cell, True)
             text = f"{title(role)} is typed into the first depth, where {where} should be read"
             exam.add("typed constant", [place], where, text, formula_at(exam, place))
             return
@@ -139,20 +146,20 @@ def _first_velocity(exam: Examination, inputs: Inputs, idle: Sequence[Position])
         shown = formula_at(exam, place) if is_formula else "the first velocity"
         exam.add(kind, [place], impact, f"{shown} is not the velocity of the impact")
         return
-    place = origin(table, place)
+    place = first_written(table, place)
     if place in table.evaluator.formulas:
         return
     known = _velocity_cell(inputs, idle, first, values)
     if known is not None and known.cell != place and (known.cell or known.name):
         same = RIGHT_HERE if near(first, known.value) else ""
-        where = address(known.cell, True) if known.cell else known.name
+        where = cell_name(known.cell, True) if known.cell else known.name
         text = f"the first velocity is typed, where {where} should be read"
         exam.add("typed number", [place], known.value, text + same)
 
 
 def _velocity_cell(
     inputs: Inputs, idle: Sequence[Position], first: float, values: Mapping[Position, object]
-) -> Source | None:
+) -> Influence | None:
     """The cell of the impact velocity: by label, or one with that number and no other label."""
     if "velocity" in inputs.cells:
         return inputs.cells["velocity"]
@@ -161,7 +168,7 @@ def _velocity_cell(
             label, unit = inputs.labels.get(place, ("", None))
             roles = input_roles(label, unit) if label else frozenset()
             if not roles or "velocity" in roles:
-                return Source(place, None, first, {})
+                return Influence(place, None, first, {})
     return None
 
 
@@ -179,7 +186,7 @@ def judge_stop(exam: Examination, idle: Sequence[Position]) -> None:
     if six is None or not speeds or not all(0 < x < math.inf for x in six):
         return
     stop = exam.stop_velocity = _stop_velocity(exam, speeds, idle, unit)
-    rows = run(six, stop)
+    rows = run_scheme(six, stop)
     if not rows or rows[-1].velocity_final >= stop:
         return
     exam.right_depth = rows[-1].depth
@@ -248,11 +255,11 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
     text += f"{table.steps} of {steps:,} steps"
     ours = report_inputs()["resistance"]
     prepared = any(
-        len(run(six._replace(H=six.H * a / b), stop)) == table.steps
+        len(run_scheme(six._replace(H=six.H * a / b), stop)) == table.steps
         for a in ours for b in ours if a != b
     )  # fmt: skip
     faults = [d for d in exam.differences if d.kind not in NO_FAULT or d.kind == "other input"]
-    is_report = stop == 1.0 and case_of(six, max(1e-6, 10 * exam.fitted.slack)) is not None
+    is_report = stop == 1.0 and report_case(six, exam.fitted) is not None
     column = end_of_row(table)[0]
     exam.cut_short = is_report and not faults and not prepared and 2 * table.steps < steps
     if is_report and not faults and not prepared and steps // 2 <= table.steps < steps - 1:
@@ -275,7 +282,7 @@ def _stop_velocity(
     own = labelled is not None and (labelled.place is None or exam.on_own_sheets(labelled.place))
     if last < 1.0 <= before and exam.firm_speed and not own:
         return 1.0
-    if labelled is not None and exam.firm_speed:
+    if labelled is not None and (exam.firm_speed or last < labelled.si <= before):
         return labelled.si
     if last < 1.0 <= before:
         return 1.0
@@ -287,8 +294,11 @@ def _stop_velocity(
             for each in (value * factor for factor in units):
                 if last < each <= before and each <= _SLOW * exam.fitted.six.V * unit:
                     return float(each)
-    # In a unit that nobody states, the rows should end with the first velocity below zero.
-    return 1.0 if exam.firm_speed else min([1.0, *(v for v in speeds.values() if v > 0)])
+    if exam.firm_speed and report_case(exam.intended, exam.fitted) is not None:
+        return 1.0
+    # Nobody states it, or its unit: the rows should end with the first velocity below zero.
+    earlier = (v for k, v in speeds.items() if v > 0 and k != max(speeds))
+    return min([1.0, *earlier])
 
 
 def _at_rest(exam: Examination, below: int) -> bool:

@@ -6,10 +6,10 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 
 from replication.check import difference
-from replication.check.fit import Fit, RightForce
+from replication.check.fit import RightForce, TableFit
 from replication.check.roles import Input
 from replication.check.six import Six
-from replication.check.table import Table
+from replication.check.table import SchemeTable
 from replication.check.words import COLUMNS
 from spreadsheets.foreign import Position, Value
 from spreadsheets.scalars import Error
@@ -32,7 +32,7 @@ class AnotherModelError(ValueError):
 
 
 @dataclass(frozen=True)
-class Difference(difference.Difference):
+class Departure(difference.Difference):
     """One way in which a workbook departs from the report's sheet.
 
     `rank` sorts differences in the order in which their cells are calculated.
@@ -57,8 +57,8 @@ class Examination:
     of a case of the report, as in an excerpt.
     """
 
-    table: Table
-    fitted: Fit
+    table: SchemeTable
+    fitted: TableFit
     inputs: dict[str, Input] = field(default_factory=dict)
     units: dict[str, float] = field(default_factory=dict)
     firm: bool = False
@@ -72,7 +72,7 @@ class Examination:
     cut_short: bool = False
     corrected: tuple[str, float] | None = None
     following: frozenset[Position] = frozenset()
-    differences: list[Difference] = field(default_factory=list)
+    differences: list[Departure] = field(default_factory=list)
 
     def on_own_sheets(self, place: Position) -> bool:
         """Whether a cell is on the sheet of the table, or on one from which it reads.
@@ -129,7 +129,7 @@ class Examination:
         """
         value = self.table.evaluator.values.get(cells[0]) if found is None else found
         value = str(value) if isinstance(value, Error) else value
-        entry = Difference(kind, tuple(cells), expected, value, text, self.rank(cells[0]))
+        entry = Departure(kind, tuple(cells), expected, value, text, self.rank(cells[0]))
         self.differences.append(entry)
 
     def cells(self, role: str, first: int) -> list[Position]:

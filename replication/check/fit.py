@@ -14,6 +14,7 @@ from typing import NamedTuple
 from replication.check.six import (
     EXACT,
     REPORT,
+    ROUNDED,
     VARIANTS,
     Six,
     State,
@@ -23,7 +24,7 @@ from replication.check.six import (
     start_of_row,
     time_step,
 )
-from replication.check.table import Table
+from replication.check.table import SchemeTable
 from spreadsheets.foreign import Position
 from spreadsheets.scalars import LiteralKey, Scalar
 
@@ -37,7 +38,7 @@ _ROUGH = 1e-7
 class Probe:
     """One row of a table, whose formulas are evaluated in other states and with other inputs."""
 
-    def __init__(self, table: Table, k: int) -> None:
+    def __init__(self, table: SchemeTable, k: int) -> None:
         self.table, self.k, self.evaluator = table, k, table.evaluator
         self.state: dict[State, Position] = {
             (role, d): table.place(role, k + d)
@@ -119,16 +120,17 @@ class Force:
 
 
 @dataclass(frozen=True)
-class Fit:
+class TableFit:
     """What the formulas of a table do, or its numbers where it has none.
 
     `six` are its numbers, `time` is by how much the time grows, `sign` is -1 where decelerations
     are negative. `ways` are the ways in which columns are filled, None for a formula that follows
     none; `brakes` is the column in which the force is seen. `force` is missing if there is none,
     or if there are no formulas; so is then `probe`. `time_adds` and `depth_adds` say whether the
-    formula of a time or a depth adds to the one before, or is a sum by itself. `slack` is the
-    relative uncertainty of the six. Of numbers without formulas `bounded` says whether the area
-    stays the same beyond D/2, and `digits` is the relative uncertainty of the numbers as typed.
+    formula of a time or a depth adds to the one before, or is a sum by itself. `errors` are the
+    relative errors of the six that digits admit, and `time_error` that of the time. Of
+    numbers without formulas `bounded` says whether the area stays the same beyond D/2, `digits` is
+    the relative uncertainty of the numbers as typed, `rough` that of the decelerations they show.
     """
 
     six: Six
@@ -139,11 +141,13 @@ class Fit:
     force: Force | None = None
     centered: bool = False
     probe: Probe | None = None
-    slack: float = EXACT
+    errors: Six = ROUNDED
+    time_error: float = EXACT
     time_adds: bool = False
     depth_adds: bool = True
     bounded: bool = True
     digits: float = EXACT
+    rough: float = EXACT
 
     @property
     def odd(self) -> list[Variant | None]:
@@ -151,7 +155,7 @@ class Fit:
         return [way for role, way in self.ways.items() if way is not REPORT[role]]
 
 
-def fit_formulas(table: Table) -> Fit | None:
+def fit_formulas(table: SchemeTable) -> TableFit | None:
     """Fit a table by its formulas; None if it has none, or if they answer to nothing."""
     k = _row_to_probe(table)
     speed = table.lines[start_of_row(table)[0]]
@@ -162,7 +166,7 @@ def fit_formulas(table: Table) -> Fit | None:
     return fitted if known else None
 
 
-def _row_to_probe(table: Table) -> int | None:
+def _row_to_probe(table: SchemeTable) -> int | None:
     """A row in the middle in which all columns have their usual formulas."""
     formulas = table.evaluator.formulas
     computed = [
@@ -183,7 +187,7 @@ def _row_to_probe(table: Table) -> int | None:
     return min(candidates)[-1] if candidates else None
 
 
-def _probed(table: Table, probe: Probe) -> Fit:
+def _probed(table: SchemeTable, probe: Probe) -> TableFit:
     """The fit of a table by the answers of one row."""
     start, end, brake = start_of_row(table), end_of_row(table), ("deceleration", 0)
     ways: dict[str, Variant | None] = {}
@@ -198,7 +202,7 @@ def _probed(table: Table, probe: Probe) -> Fit:
     adds = ("time", 0) in probe.state and ("time", -1) in probe.answers(probe.state["time", 0])
     six = Six(math.nan, math.nan, math.nan, c, e, impact_velocity(table))
     grows = ("depth", -1) in probe.answers(probe.state["depth", 0])
-    fitted = Fit(
+    fitted = TableFit(
         six,
         _time_of(table, probe, adds),
         sign,
@@ -231,7 +235,7 @@ def _probed(table: Table, probe: Probe) -> Fit:
     )  # fmt: skip
 
 
-def _time_of(table: Table, probe: Probe, adds: bool) -> float | None:
+def _time_of(table: SchemeTable, probe: Probe, adds: bool) -> float | None:
     """By how much the time grows: by the formula itself, if it agrees with the numbers.
 
     It loses no digits where the times are large.
@@ -243,7 +247,7 @@ def _time_of(table: Table, probe: Probe, adds: bool) -> float | None:
     return step
 
 
-def _is_negative(table: Table, probe: Probe) -> bool:
+def _is_negative(table: SchemeTable, probe: Probe) -> bool:
     """Whether decelerations count as negative: at the impact velocity and a small depth, one is.
 
     Beyond the depth 2R a contact area D x - x² is negative, too.
@@ -295,7 +299,7 @@ def _slopes(probe: Probe, place: Position, read: Sequence[State]) -> dict[State,
     return slopes
 
 
-def _advance(table: Table, probe: Probe) -> tuple[float, Variant | None]:
+def _advance(table: SchemeTable, probe: Probe) -> tuple[float, Variant | None]:
     """The constant c of the depths and the way in which they grow."""
     place, before = probe.state["depth", 0], ("depth", -1)
     read = probe.answers(place)
@@ -324,7 +328,7 @@ def _advance(table: Table, probe: Probe) -> tuple[float, Variant | None]:
     return c, _with_speeds(table, speeds)
 
 
-def _is_sum(table: Table, probe: Probe, slopes: Mapping[State, float]) -> bool:
+def _is_sum(table: SchemeTable, probe: Probe, slopes: Mapping[State, float]) -> bool:
     """Whether a depth is a sum of all velocities: it grows by one of them from row to row."""
     start = start_of_row(table)
     k = probe.k
@@ -339,7 +343,7 @@ def _is_sum(table: Table, probe: Probe, slopes: Mapping[State, float]) -> bool:
 
 
 def _without_adding(
-    table: Table, speeds: Sequence[State], others: Sequence[State]
+    table: SchemeTable, speeds: Sequence[State], others: Sequence[State]
 ) -> Variant | None:
     """The way of a depth that adds nothing to the one before."""
     if not speeds or any(role != "time" for role, _ in others):
@@ -349,7 +353,7 @@ def _without_adding(
     return VARIANTS["velocity times time" if by_time else "half a step alone"]
 
 
-def _with_speeds(table: Table, speeds: Sequence[State]) -> Variant:
+def _with_speeds(table: SchemeTable, speeds: Sequence[State]) -> Variant:
     """The way of a depth that adds a velocity, or two, to the one before."""
     if len(speeds) > 1:
         return VARIANTS["mean velocity"]
@@ -398,7 +402,7 @@ def _quadratic(values: Sequence[float]) -> tuple[float, float, float]:
     return one - slope - square, slope, square
 
 
-def _grid(force: Force, x: float, u: float) -> list[list[float]]:
+def _grid_of_terms(force: Force, x: float, u: float) -> list[list[float]]:
     """The coefficients of u^i x^j, in units of the two scales: `result[i][j]`."""
     by_depth = [_quadratic([force(s * x, t * u) for t in (1, 2, 3)]) for s in (1, 2, 3)]
     return [list(_quadratic([row[i] for row in by_depth])) for i in range(3)]
@@ -413,7 +417,7 @@ def _is_polynomial(force: Force, grid: list[list[float]], x: float, u: float) ->
 
 
 def _numbers_of(
-    force: Force, table: Table, e: float
+    force: Force, table: SchemeTable, e: float
 ) -> tuple[tuple[float, float, float], Variant | None, bool]:
     """G, H and D of a force, the way that it follows, and whether its drag is centered."""
     nan = (math.nan, math.nan, math.nan)
@@ -425,7 +429,7 @@ def _numbers_of(
     G, H, D = first
     if 0 < D < math.inf and G > 0 and H > 0:  # where all terms matter
         small, speed = 0.14 * D, 0.5 * math.sqrt(H / G)
-    grid = _grid(force, small, speed)
+    grid = _grid_of_terms(force, small, speed)
     if not all(math.isfinite(value) for row in grid for value in row):
         return nan, None, False
     if _is_polynomial(force, grid, small, speed):
@@ -494,7 +498,9 @@ def centered_numbers(
     return G, H, D
 
 
-def _is_centered(force: Force, numbers: tuple[float, float, float], h: float, table: Table) -> bool:
+def _is_centered(
+    force: Force, numbers: tuple[float, float, float], h: float, table: SchemeTable
+) -> bool:
     G, H, D = numbers
     speed = abs(impact_velocity(table))
     for s, t in ((0.17 * D, 0.9 * speed), (0.36 * D, 0.7 * speed)):
@@ -545,7 +551,9 @@ def _named_force(
 # ---- the same numbers again, with inputs replaced
 
 
-def numbers_with(fitted: Fit, table: Table, cells: Cells, literals: Literals) -> dict[str, float]:
+def numbers_with(
+    fitted: TableFit, table: SchemeTable, cells: Cells, literals: Literals
+) -> dict[str, float]:
     """The numbers by name, with some inputs replaced: of c, e and t only their ratios count."""
     probe, six = fitted.probe, fitted.six
     assert probe is not None
@@ -588,7 +596,7 @@ class RightForce(NamedTuple):
     off: float | None = None
 
 
-def is_part(fitted: Fit, place: Position, right: RightForce) -> bool:
+def is_part(fitted: TableFit, place: Position, right: RightForce) -> bool:
     """Whether a formula beside the table is a part of the right force, up to a constant.
 
     Such parts are powers of the velocity and the depth, the contact area D x - x², and the pressure
@@ -601,7 +609,7 @@ def is_part(fitted: Fit, place: Position, right: RightForce) -> bool:
     small, speed = 0.1 * D, abs(fitted.six.V) / 3
     if right.ratio and right.ratio > 0:
         speed = 0.5 / math.sqrt(right.ratio)
-    grid = _grid(force, small, speed)
+    grid = _grid_of_terms(force, small, speed)
     if not all(math.isfinite(value) for row in grid for value in row):
         return True
     if not _is_polynomial(force, grid, small, speed):
@@ -644,7 +652,7 @@ def _is_right_constant(
     return abs(slip - round(slip)) > 1e-8
 
 
-def _lacks_square(fitted: Fit, slope: float, D: float) -> bool:
+def _lacks_square(fitted: TableFit, slope: float, D: float) -> bool:
     """Whether a line that is proportional to the depth is pi D x, as the area of a wrong force."""
     if fitted.ways.get("deceleration") is not VARIANTS["area without x²"]:
         return False
@@ -652,7 +660,7 @@ def _lacks_square(fitted: Fit, slope: float, D: float) -> bool:
     return abs(power - round(power)) < 1e-8
 
 
-def grows_beyond(fitted: Fit, place: Position) -> bool:
+def grows_beyond(fitted: TableFit, place: Position) -> bool:
     """Whether a formula beside the table has the contact area D x - x² and no right end at R."""
     D, speed = fitted.six.D, abs(fitted.six.V) / 3
     if fitted.force is None or not 0 < D < math.inf:
@@ -664,7 +672,7 @@ def grows_beyond(fitted: Fit, place: Position) -> bool:
     return not math.isclose(deep / tenth, 0.25 / 0.09, rel_tol=1e-6)
 
 
-def is_bounded(fitted: Fit) -> bool:
+def is_bounded(fitted: TableFit) -> bool:
     """Whether the contact area stays pi R² beyond the depth R, as in the report."""
     six = fitted.six
     if fitted.force is None or not 0 < six.D < math.inf:

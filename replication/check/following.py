@@ -3,14 +3,14 @@
 from bisect import bisect_left
 from collections.abc import Collection, Iterable, Iterator, Mapping
 
-from replication.check.references import Reference, words
+from replication.check.references import TextReference, words
 from spreadsheets.foreign import Book, Position
 
 _MAX_WORK = 1_000_000
 """Steps of the search for what formulas read; beyond, a cause may be taken for a consequence."""
 
 
-class Reading:
+class CellsRead:
     """Which of some cells of a book its formulas read."""
 
     def __init__(self, book: Book, cells: Iterable[Position]) -> None:
@@ -35,24 +35,24 @@ class Reading:
                     self.work += end - first
                     yield from ((name, row, column) for row in rows[first:end])
 
-    def _areas(self, place: Position) -> Iterator[Reference]:
+    def _areas(self, place: Position) -> Iterator[TextReference]:
         """The cells that a formula refers to, also by names."""
         cell = self.book[place]
         for word in words(cell.formula or ""):
-            if isinstance(word, Reference):
+            if isinstance(word, TextReference):
                 yield word
             elif meaning := self.book.meanings.get(word):
                 for inner in words(f"={meaning.removeprefix('=')}"):
-                    if isinstance(inner, Reference):
+                    if isinstance(inner, TextReference):
                         yield inner.seen_from(place)
         if cell.array and (cell.formula or "").startswith("=TABLE("):
             # A what-if table also follows the formulas above it and at its left.
             top, left, bottom, right = cell.array
-            yield Reference("", max(top - 1, 1), left, max(top - 1, 1), right, "")
-            yield Reference("", max(top - 1, 1), max(left - 1, 1), bottom, max(left - 1, 1), "")
+            yield TextReference("", max(top - 1, 1), left, max(top - 1, 1), right, "")
+            yield TextReference("", max(top - 1, 1), max(left - 1, 1), bottom, max(left - 1, 1), "")
 
 
-def calculation_order(cells: Iterable[Position], reading: Reading) -> Mapping[Position, int]:
+def calculation_order(cells: Iterable[Position], reading: CellsRead) -> Mapping[Position, int]:
     """The rank of each of some cells, after all of them that it reads.
 
     `cells` come in the order that they have otherwise. Those that read each other in a circle come

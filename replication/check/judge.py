@@ -10,23 +10,22 @@ from replication.check.constants import typed_constants, typed_stops
 from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import AnotherModelError, Examination, near
 from replication.check.excerpt import judge_excerpt
-from replication.check.fit import is_part
-from replication.check.model import blank_inputs, refuse_other_model
+from replication.check.fit import TableFit, is_part
+from replication.check.model import blank_inputs, refuse_other_model, zero_of_blank
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
-from replication.check.rows import fit_table
 from replication.check.six import (
     REPORT,
     VARIANTS,
     end_of_row,
     first_speed,
-    origin,
+    first_written,
     start_of_row,
 )
-from replication.check.table import Line, Table, address
+from replication.check.table import Line, SchemeTable, cell_name
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
-from replication.check.units import Equation, Quantity, equations, mended, state_units
-from replication.check.words import times_too, title, unit_text
+from replication.check.units import Balance, Magnitude, equations, right_units, state_units
+from replication.check.words import times_too, title, unit_name
 from spreadsheets.foreign import Position
 
 _PIS = (3.14, 3.1416, 3.14159, 3.142, 3.1415, 22 / 7, 3.141593, 3.1415927)
@@ -39,12 +38,11 @@ _LEAST_RATIO = 0.02
 """The target's density over the particle's is larger: magnesium over osmium is 0.08."""
 _MOST_POWER = 300.0
 """Doubles reach to 1e308."""
-_VAGUE = 30
-"""Numbers without formulas may miss an equation by so many times their uncertainty."""
 
 
 def examine(
-    table: Table, names: Mapping[Position, str], given: Mapping[str, Position],
+    table: SchemeTable, fitted: TableFit, names: Mapping[Position, str],
+    given: Mapping[str, Position],
     idle: Sequence[Position], typed: Sequence[Position],
 ) -> Examination:  # fmt: skip
     """Judge a table. Raises AnotherModelError if it does not follow the report's.
@@ -52,19 +50,23 @@ def examine(
     `names` are the names of cells, `given` the cells of inputs that the user named, `idle` numbers
     that no table reads, `typed` all typed numbers beside the table.
     """
-    exam = Examination(table, fit_table(table))
+    exam = Examination(table, fitted)
     inputs = recognize(table, exam.fitted, given, names, idle)
     exam.read = frozenset(s.cell for s in inputs.sources if s.cell)
+    zero = zero_of_blank(exam, inputs)
+    if zero is not None:
+        text = f"{formula_at(exam, zero)} reads a blank cell: it is 0, so that nothing follows"
+        exam.add("odd formula", [zero], None, text)
+        exam.ends = False
+        return exam
     state_units(table, inputs)
     _trust_report(inputs)
     found = equations(table, exam.fitted, inputs)
     if _is_half(found, inputs):
         _take_for_radius(inputs)
         found = equations(table, exam.fitted, inputs)
-    slack = max(CLOSE, exam.fitted.slack)
-    loose = max(slack, _vagueness(exam, slack))
-    broken, of_units = _without_unit(exam, inputs, found, slack)
-    result, stated = mended(of_units, inputs, loose), inputs.powers
+    broken, of_units = _without_unit(inputs, found)
+    result, stated = right_units(of_units, inputs), inputs.powers
     if result is not None:
         inputs.powers = result[0]
     exam.units = {role: inputs.powers.get(("column", role), 0.0) for role in table.lines}
@@ -73,13 +75,13 @@ def examine(
     speeds: list[Item] = [("column", role) for role in ("velocity_initial", "velocity_final")]
     speeds += [inputs.cells["velocity"].item] if "velocity" in inputs.cells else []
     exam.firm_speed = any(item in inputs.stated for item in speeds)
-    refuse_other_model(exam, inputs, found, slack)
+    refuse_other_model(exam, inputs, found)
     take_inputs(exam, inputs)
     typed_constants(exam, inputs, [place for place in typed if place not in exam.read], broken)
     typed_stops(exam, inputs)
     _broken_equations(exam, inputs, found, broken)
     if result is None:
-        _not_converted(exam, inputs, of_units, slack)
+        _not_converted(exam, inputs, of_units)
     else:
         for item in result[1]:
             _wrong_unit(exam, inputs, item, stated.get(item, 0.0))
@@ -103,7 +105,7 @@ def _trust_report(inputs: Inputs) -> None:
             inputs.stated[source.item] = False
 
 
-def _is_half(found: Sequence[Equation], inputs: Inputs) -> bool:
+def _is_half(found: Sequence[Balance], inputs: Inputs) -> bool:
     """Whether the number taken for the diameter is the radius: the mass is an eighth.
 
     The formula for the diameter is then wrong, not that for the mass.
@@ -158,14 +160,13 @@ def _without_drag(exam: Examination) -> None:
     """Report numbers without formulas whose deceleration does not depend on the velocity.
 
     G D^3 = 3 rho_t/rho_p, whatever the units, as c and e are the same step. No two solids have a
-    ratio of densities below 1/50; it is reported only where the digits would show twice that.
+    ratio of densities below 1/50, as far as the digits tell.
     """
-    six, slack = exam.fitted.six, exam.fitted.slack
+    six, errors = exam.fitted.six, exam.fitted.errors
     if exam.fitted.probe is not None or not (six.H > 0 and six.D > 0 and six.c and six.V > 0):
         return
-    drag = 3 / six.D**3 * six.c / abs(six.e)
-    shown = 2 * _LEAST_RATIO * drag * six.V**2 > 100 * slack * six.H
-    if shown and abs(six.G) < _LEAST_RATIO * drag:
+    drag = 3 / (six.D * (1 + errors.D)) ** 3 * six.c / abs(six.e)
+    if abs(six.G) * (1 + errors.G) < _LEAST_RATIO * drag:
         text = (
             "no drag: the deceleration does not depend on the velocity; the force lacks the drag, "
         )
@@ -184,7 +185,7 @@ def _not_computed(exam: Examination, place: Position) -> bool:
         if reason is None or evaluator.values.get(area.corner) is not None:
             continue
         if not reason.startswith("nothing is called"):
-            raise AnotherModelError(f"{address(area.corner, True)} is not computed: {reason}")
+            raise AnotherModelError(f"{cell_name(area.corner, True)} is not computed: {reason}")
         text = f"{formula_at(exam, area.corner)}: {reason}"
         exam.add("odd formula", [area.corner], None, text)
         return True
@@ -235,38 +236,32 @@ def _slips(name: str, inputs: Inputs) -> list[tuple[float, str]]:
     return slips
 
 
-def _vagueness(exam: Examination, slack: float) -> float:
-    """How far an equation between numbers without formulas may be off: a unit is ten times more."""
-    return max(_VAGUE * slack, math.log10(1.01)) if exam.fitted.probe is None else 0.0
-
-
-def _without_unit(
-    exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
-) -> tuple[dict[str, str], list[Equation]]:
+def _without_unit(inputs: Inputs, found: Sequence[Balance]) -> tuple[dict[str, str], list[Balance]]:
     """The equations that no unit can mend, each by its name with the slip that it shows.
 
     Then all the others; and those with a slip, without it, as they still tell a unit.
     """
     broken: dict[str, str] = {}
-    mendable: list[Equation] = []
-    vague = _vagueness(exam, slack)
+    mendable: list[Balance] = []
     for eq in found:
         rest = eq.residual(inputs.powers)
         free = [item for item in eq.terms if item not in inputs.stated]
         odd = any(inputs.powers.get(item, 0.0) % 1 for item in eq.terms if item in inputs.stated)
         if odd and abs(rest) < _FEW_DIGITS:
             continue  # converted by a factor of a few digits
-        near = max(slack, vague)
-        by_unit = any(unit_power(-rest / eq.terms[item], near) is not None for item in free)
-        if abs(rest - round(rest)) <= slack + 2 * CLOSE or abs(rest) < vague or by_unit:
+        by_unit = any(
+            unit_power(-rest / eq.terms[item], eq.slack, eq.ratio.error) is not None
+            for item in free
+        )
+        if abs(rest - round(rest)) <= eq.slack + 2 * CLOSE or by_unit:
             mendable.append(eq)
             continue
         broken[eq.name] = ""
         for ratio, slip in _slips(eq.name, inputs):
             off = rest - math.log10(ratio)
-            if not broken[eq.name] and abs(off - round(off)) <= max(slack, 1e-8):
+            if not broken[eq.name] and abs(off - round(off)) <= max(eq.slack, 1e-8):
                 broken[eq.name] = slip
-                mendable.append(replace(eq, ratio=eq.ratio * Quantity(-math.log10(ratio))))
+                mendable.append(replace(eq, ratio=eq.ratio * Magnitude(-math.log10(ratio))))
     return broken, mendable
 
 
@@ -276,7 +271,7 @@ def _clipped(power: float) -> float:
 
 
 def _broken_equations(
-    exam: Examination, inputs: Inputs, found: Sequence[Equation], broken: Mapping[str, str]
+    exam: Examination, inputs: Inputs, found: Sequence[Balance], broken: Mapping[str, str]
 ) -> None:
     """Report the equations that do not hold, each where it is written."""
     times = {eq.name: 10.0 ** _clipped(eq.residual(inputs.powers)) for eq in found}
@@ -297,14 +292,14 @@ def _broken_equations(
     start = first_speed(exam.table)
     if "V" in broken and start is not None and start not in {d.place for d in exam.differences}:
         velocity = inputs.cells["velocity"]
-        where = address(velocity.cell, True) if velocity.cell else "its name"
-        start = _written(exam.table, origin(exam.table, start))
+        where = cell_name(velocity.cell, True) if velocity.cell else "its name"
+        start = _written(exam.table, first_written(exam.table, start))
         kind = "odd formula" if start in exam.table.evaluator.formulas else "typed number"
         text = f"the first velocity is {times['V']:.6g} times {title('velocity')} in {where}"
         exam.add(kind, [start], velocity.value, text)
 
 
-def _written(table: Table, place: Position) -> Position:
+def _written(table: SchemeTable, place: Position) -> Position:
     """The cell beside a table in which a number is computed that others only repeat."""
     evaluator = table.evaluator
     shown = evaluator.areas(place)
@@ -390,7 +385,7 @@ def _beta_typed(
         return False
     if stress.cell is None or not any(area.covers(stress.cell) for area in own):
         return False
-    where = address(beta.cell, beta.cell[0] != exam.table.sheet)
+    where = cell_name(beta.cell, beta.cell[0] != exam.table.sheet)
     text = f"{title('beta')} is typed as {typed[0]:.10g}, where {where} should be read"
     exam.add("typed constant", blamed, where, text, formula_at(exam, blamed[0]))
     return True
@@ -469,7 +464,7 @@ def _wrong_unit(exam: Examination, inputs: Inputs, item: Item, stated: float) ->
     if kind == "column":
         role = str(what)
         line = exam.table.lines[role]
-        shown = unit_text(role, round(right)) if whole else "another unit"
+        shown = unit_name(role, round(right)) if whole else "another unit"
         text = f"the head gives {title(role)} in {line.unit or 'SI units'}, but the numbers are in "
         place = line.unit_place or line.place(min(line.values))
         exam.add("unit", [place, *exam.cells(role, 0)], shown, text + shown, line.unit)
@@ -479,7 +474,7 @@ def _wrong_unit(exam: Examination, inputs: Inputs, item: Item, stated: float) ->
     if source.place is None:
         return  # a name that stands for a number states no unit
     _, unit = inputs.label(source)
-    shown = unit_text(role, round(right)) if whole else "another unit"
+    shown = unit_name(role, round(right)) if whole else "another unit"
     if unit is None and source.computed:
         power = round(right - stated)
         text = f"{title(role)} is {times_too(-power)}: a unit is not converted"
@@ -499,13 +494,11 @@ _FOLLOWS = {"c = e": {"c = dt", "e = dt"}, "t = c": {"t = dt", "c = dt"}}
 """Equations that follow from two others, which tell the column that is wrong."""
 
 
-def _not_converted(
-    exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
-) -> None:
+def _not_converted(exam: Examination, inputs: Inputs, found: Sequence[Balance]) -> None:
     """Report equations that a power of ten breaks, where no single statement mends all of them."""
     accused = {cell for d in exam.differences for cell in d.cells}
     rests = {eq.name: eq.residual(inputs.powers) for eq in found}
-    wrong = [eq for eq in found if abs(rests[eq.name]) >= _VAGUE * slack]
+    wrong = [eq for eq in found if not eq.holds(inputs.powers)]
     of_cell = any(eq.name in ("c = dt", "e = dt", "t = dt") for eq in wrong)
     for eq in wrong:
         rest = rests[eq.name]
@@ -527,7 +520,7 @@ def _written_in(exam: Examination, inputs: Inputs, name: str) -> tuple[list[Posi
         return [source.cell], title(name)
     start = first_speed(exam.table)
     if name == "V" and start is not None:
-        return [origin(exam.table, start)], "the first velocity"
+        return [first_written(exam.table, start)], "the first velocity"
     column, first = exam.fitted.brakes, 1
     if name in ("t = dt", "t = c"):
         column = "time"

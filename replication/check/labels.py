@@ -4,7 +4,7 @@ import re
 from collections.abc import Iterator
 
 from replication.check.words import input_roles, is_unit, unit_in
-from spreadsheets.evaluate import Evaluator, parse, shape_key
+from spreadsheets.evaluate import Evaluator, parse_formula, shape_key
 from spreadsheets.foreign import Position
 
 _NUMBER = re.compile(r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[Ee][-+]?[0-9]{1,3})?")
@@ -26,7 +26,7 @@ def label_of(place: Position, evaluator: Evaluator) -> tuple[str, str | None, bo
     """
     sheet, row, column = place
     left, above, right = (
-        _text((sheet, r, c), evaluator)
+        _typed_text((sheet, r, c), evaluator)
         for r, c in ((row, column - 1), (row - 1, column), (row, column + 1))
     )
     units = [text for text in (right, left, above) if text and is_unit(text)]
@@ -46,7 +46,7 @@ def label_of(place: Position, evaluator: Evaluator) -> tuple[str, str | None, bo
     return label, unit, unit is not None and is_sure(label)
 
 
-def _text(place: Position, evaluator: Evaluator) -> str | None:
+def _typed_text(place: Position, evaluator: Evaluator) -> str | None:
     """The text typed into a cell, if any."""
     value = evaluator.values.get(place)
     if isinstance(value, str) and value.strip() and place not in evaluator.formulas:
@@ -65,7 +65,7 @@ def _further(place: Position, evaluator: Evaluator, upwards: bool) -> Iterator[s
         cells = [(sheet, row, column - distance)]
         cells += [(sheet, row - distance, column)] if upwards else []
         for cell in cells:
-            text = _text(cell, evaluator)
+            text = _typed_text(cell, evaluator)
             if text and not is_unit(text):
                 yield text
 
@@ -88,7 +88,7 @@ def cell_names(evaluator: Evaluator) -> dict[Position, str]:
     names = {}
     for name, meaning in evaluator.book.names.items():
         text = f"={meaning.removeprefix('=')}"
-        shape = parse(text, first, evaluator.book, shape_key(text, 1, 1))
+        shape = parse_formula(text, first, evaluator.book, shape_key(text, 1, 1))
         if len(shape.references) == 1 and not shape.literals and all(shape.references[0].fixed):
             area = shape.references[0].at(1, 1)
             if area.cells == 1:

@@ -7,14 +7,14 @@ from openpyxl.utils.cell import get_column_letter
 
 from replication.check.difference import Difference, counted, span
 from replication.check.matching import Cell, in_order, matched, same_sheets
-from replication.check.references import Reference
+from replication.check.references import TextReference
 from spreadsheets.foreign import LAST_COLUMN, LAST_ROW, Book, Position, Value
-from spreadsheets.foreign import Cell as Contents
+from spreadsheets.foreign import StoredCell as Contents
 
 _KINDS = {"removed": ("is gone", "are gone"), "added": ("is new", "are new")}
 
 
-class Lines:
+class AlignedLines:
     """The rows, or the columns, of a sheet, with their places in the other workbook.
 
     `used` are those that hold anything; the last number is that of the sheet's last line.
@@ -54,14 +54,14 @@ class Layout:
         self.before, self.after = before, after
         self.partners = same_sheets(before, after)
         self.places: dict[str, dict[Cell, Cell]] = {}
-        self.lines: dict[str, tuple[Lines, Lines]] = {}
+        self.lines: dict[str, tuple[AlignedLines, AlignedLines]] = {}
         self.differences = list(self._sheets())
         for name, partner in self.partners.items():
             old, new = before.sheets[name], after.sheets[partner]
             way = matched(old, new)
             self.lines[name] = (
-                Lines(way.rows, (row for row, _ in old), LAST_ROW),
-                Lines(way.columns, (column for _, column in old), LAST_COLUMN),
+                AlignedLines(way.rows, (row for row, _ in old), LAST_ROW),
+                AlignedLines(way.columns, (column for _, column in old), LAST_COLUMN),
             )
             places = {cell: to for cell, to in way.cells(old).items() if to in new}
             self.places[name] = places
@@ -90,7 +90,7 @@ class Layout:
                 place = (partner, 1, 1)
                 yield Difference("moved", (place,), name, partner, "the sheet is renamed")
 
-    def follows(self, a: Reference, b: Reference, old: Position, new: Position) -> bool:
+    def follows(self, a: TextReference, b: TextReference, old: Position, new: Position) -> bool:
         """Whether a reference in a cell `b` of the second workbook is that of the same cell before.
 
         Where lines are in another order, formulas that programs have sorted refer as far as they
@@ -120,7 +120,7 @@ class Layout:
         return False
 
 
-def _distance(reference: Reference, place: Position) -> tuple[int, ...]:
+def _distance(reference: TextReference, place: Position) -> tuple[int, ...]:
     """How far the ends of a reference are from a cell."""
     _, row, column = place
     return (
@@ -151,7 +151,9 @@ class _Axis:
 AXES = (_Axis(0, "row", str), _Axis(1, "column", get_column_letter))
 
 
-def _moved(sheet: str, axis: _Axis, lines: Lines, come: Sequence[int]) -> Iterator[Difference]:
+def _moved(
+    sheet: str, axis: _Axis, lines: AlignedLines, come: Sequence[int]
+) -> Iterator[Difference]:
     """The lines of a sheet that moved, other than by lines with contents before them.
 
     `come` are the new lines with contents. A changed order is said once.
@@ -159,7 +161,7 @@ def _moved(sheet: str, axis: _Axis, lines: Lines, come: Sequence[int]) -> Iterat
     pairs, kept = list(lines.places.items()), set(lines.kept)
     moved = [pair for pair in pairs if pair not in kept]
     if not moved:
-        yield from _shifted(sheet, axis, lines, come)
+        yield from _shifted_lines(sheet, axis, lines, come)
         return
     old, new = ([pair[k] for pair in moved] for k in (0, 1))
     targets = sorted(lines.places.values())
@@ -180,7 +182,9 @@ def _are_neighbours(some: Sequence[int], of: Sequence[int]) -> bool:
     return list(of[first : first + len(some)]) == list(some)
 
 
-def _shifted(sheet: str, axis: _Axis, lines: Lines, come: Sequence[int]) -> Iterator[Difference]:
+def _shifted_lines(
+    sheet: str, axis: _Axis, lines: AlignedLines, come: Sequence[int]
+) -> Iterator[Difference]:
     """The lines that kept their order and moved by blank ones that were inserted or deleted."""
     gone = sorted(lines.used - lines.places.keys())
     runs: list[tuple[list[int], list[int]]] = []
@@ -223,13 +227,13 @@ def _unmatched(
             block = sorted(cell for line in run for cell in by_line[line])
             left = left.difference(block)
             text = f"{axis.shown(run)} of {sheet!r} {_KINDS[kind][len(run) > 1]}"
-            yield _only(kind, sheet, cells, block, text)
+            yield _only_in_one(kind, sheet, cells, block, text)
     for block in touching(left):
         text = f"{counted(len(block), 'cell')} {_KINDS[kind][len(block) > 1]}"
-        yield _only(kind, sheet, cells, block, text)
+        yield _only_in_one(kind, sheet, cells, block, text)
 
 
-def _only(
+def _only_in_one(
     kind: str, sheet: str, cells: Mapping[Cell, Contents], block: Sequence[Cell], text: str
 ) -> Difference:
     """The difference for cells that only one of two sheets has."""

@@ -15,7 +15,7 @@ from typing import Any
 
 from replication.check.references import outline
 from spreadsheets.foreign import Book
-from spreadsheets.foreign import Cell as Contents
+from spreadsheets.foreign import StoredCell as Contents
 
 Cell = tuple[int, int]
 """Row and column."""
@@ -59,10 +59,10 @@ def same_sheets(before: Book, after: Book) -> dict[str, str]:
 
 def keys(cells: Mapping[Cell, Contents]) -> dict[Cell, str]:
     """What each cell is known by: its text or number, or what its formula does."""
-    return {place: _key(cell) for place, cell in cells.items()}
+    return {place: _content_key(cell) for place, cell in cells.items()}
 
 
-def _key(cell: Contents) -> str:
+def _content_key(cell: Contents) -> str:
     if cell.formula is not None:
         return outline(cell.formula)
     return f"'{cell.value}" if isinstance(cell.value, str) else f"n{cell.value}"
@@ -91,7 +91,7 @@ def matched(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> Match
     if _unchanged(old, new):
         return in_place
     a, b = keys(old), keys(new)
-    columns_of = [_lines(contents, 1) for contents in (a, b)]
+    columns_of = [_line_contents(contents, 1) for contents in (a, b)]
     old_columns, new_columns = (
         {c: tuple(dict.fromkeys(line)) for c, line in lines.items()} for lines in columns_of
     )
@@ -101,7 +101,7 @@ def matched(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> Match
     kept = {(r, c): key for (r, c), key in b.items() if c in arriving}
     by_rows = _align(_numbered(renamed), _numbered(kept), _stable(renamed, kept))
     moved = Matched(by_rows, by_columns)
-    return moved if _score(moved, a, b) > _score(in_place, a, b) else in_place
+    return moved if _cells_matched(moved, a, b) > _cells_matched(in_place, a, b) else in_place
 
 
 def _unchanged(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> bool:
@@ -113,12 +113,12 @@ def _unchanged(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> bo
     )
 
 
-def _score(way: Matched, old: Mapping[Cell, str], new: Mapping[Cell, str]) -> int:
+def _cells_matched(way: Matched, old: Mapping[Cell, str], new: Mapping[Cell, str]) -> int:
     """How many cells hold the same where they are said to be."""
     return sum(new.get(to) == old[cell] for cell, to in way.cells(old).items())
 
 
-def _lines(contents: Mapping[Cell, str], axis: int) -> dict[int, list[str]]:
+def _line_contents(contents: Mapping[Cell, str], axis: int) -> dict[int, list[str]]:
     """The contents of each row (axis 0) or column (axis 1), in order."""
     lines: dict[int, list[str]] = defaultdict(list)
     for cell in sorted(contents):
@@ -136,7 +136,7 @@ def _numbered(contents: Mapping[Cell, str]) -> dict[int, tuple[tuple[int, str], 
 
 def _stable(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> frozenset[int]:
     """The columns that hold the same on both sides, in whatever order."""
-    a, b = ({c: Counter(line) for c, line in _lines(x, 1).items()} for x in (old, new))
+    a, b = ({c: Counter(line) for c, line in _line_contents(x, 1).items()} for x in (old, new))
     return frozenset(
         column
         for column in a.keys() & b.keys()

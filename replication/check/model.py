@@ -10,9 +10,9 @@ from replication.check.examination import AnotherModelError, Examination
 from replication.check.responses import FAMILIES, trace
 from replication.check.roles import Inputs
 from replication.check.six import REPORT, VARIANTS, end_of_row, start_of_row
-from replication.check.table import address
+from replication.check.table import cell_name
 from replication.check.taken import report_inputs
-from replication.check.units import Equation
+from replication.check.units import Balance
 from replication.check.words import input_roles, title
 from spreadsheets.foreign import Position
 
@@ -26,9 +26,7 @@ _FEW_ROWS = 6
 """Of fewer rows without formulas it cannot be said that they follow another model."""
 
 
-def refuse_other_model(
-    exam: Examination, inputs: Inputs, found: Sequence[Equation], slack: float
-) -> None:
+def refuse_other_model(exam: Examination, inputs: Inputs, found: Sequence[Balance]) -> None:
     """Raise AnotherModelError if the formulas are not the report's, and the inputs are not either.
 
     Formulas that are not the report's are a fault if the rest of the table is: if two of the
@@ -39,20 +37,20 @@ def refuse_other_model(
         return
     for role, source in inputs.cells.items():
         if source.cell in exam.read and source.value <= 0 and role != "stop_velocity":
-            where = address(source.cell, True)
+            where = cell_name(source.cell, True)
             raise AnotherModelError(
                 f"{where}: {title(role)} is {source.value:g}: no impact has that"
             )
     _refuse_zero(inputs)
     if fitted.probe is None:
-        if not (_rows_agree(exam) and _steps_agree(found, inputs, slack)):
+        if not (_rows_agree(exam) and _steps_agree(found, inputs)):
             raise AnotherModelError(_sentence(exam, "deceleration"))
         return
     wrong = [role for role, way in fitted.ways.items() if way is not REPORT[role]]
     force = fitted.ways.get("deceleration", REPORT["deceleration"])
     if not wrong or force is REPORT["deceleration"]:
         return
-    hold = {eq.name for eq in found if abs(eq.residual(inputs.powers)) < slack}
+    hold = {eq.name for eq in found if eq.holds(inputs.powers)}
     strong = len(hold & {"D", "mass", "diameter", "G", "H", "resistance"})
     if strong >= (1 if fitted.centered else 2) or ("D" in hold and force is None):
         return  # the contact area is that of the sphere whose radius a cell holds
@@ -70,9 +68,29 @@ def _refuse_zero(inputs: Inputs) -> None:
         label, unit = inputs.label(source)
         roles = input_roles(label, unit) if label and source.cell and not source.value else ()
         if len(roles) == 1 and "stop_velocity" not in roles:
-            where = address(source.cell, True) if source.cell else ""
+            where = cell_name(source.cell, True) if source.cell else ""
             (role,) = roles
             raise AnotherModelError(f"{where}: {title(role)} is 0: no impact has that")
+
+
+def zero_of_blank(exam: Examination, inputs: Inputs) -> Position | None:
+    """A formula that the label calls an input, and that is zero as it reads a blank cell."""
+    evaluator = exam.table.evaluator
+    for source in inputs.sources:
+        label, unit = inputs.label(source)
+        named = bool(label) and len(input_roles(label, unit)) == 1
+        if (
+            source.cell not in evaluator.formulas
+            or source.cell is None
+            or source.value
+            or not named
+        ):
+            continue
+        read = (area.corner for area in evaluator.areas(source.cell) if area.cells == 1)
+        if any(cell not in evaluator.formulas and evaluator.values.get(cell) is None
+               for cell in read):  # fmt: skip
+            return source.cell
+    return None
 
 
 def blank_inputs(exam: Examination) -> list[Position]:
@@ -153,16 +171,16 @@ def _sentence(exam: Examination, role: str) -> str:
     found = f"another model: {table.sheet!r} has depths in {depth} and velocities in {speed}"
     if place in table.evaluator.formulas:
         formula = formula_at(exam, place)[:120]
-        return f"{found}, but {subject} in {address(place, True)}, {formula}, {what}"
+        return f"{found}, but {subject} in {cell_name(place, True)}, {formula}, {what}"
     if table.evaluator.book.is_text:
         return f"another model: the number in {where(table.evaluator.book, place)}, {what}"
-    return f"{found}, but the number in {address(place, True)} {what}"
+    return f"{found}, but the number in {cell_name(place, True)} {what}"
 
 
-def _steps_agree(found: Sequence[Equation], inputs: Inputs, slack: float) -> bool:
+def _steps_agree(found: Sequence[Balance], inputs: Inputs) -> bool:
     """Whether depth and velocity of a table of numbers change by the same step, in some unit."""
-    rests = [eq.residual(inputs.powers) for eq in found if eq.name == "c = e"]
-    return all(abs(rest - round(rest)) < max(100 * slack, 1e-3) for rest in rests)
+    rests = [(eq.residual(inputs.powers), eq.slack) for eq in found if eq.name == "c = e"]
+    return all(abs(rest - round(rest)) < slack for rest, slack in rests)
 
 
 def _rows_agree(exam: Examination) -> bool:

@@ -13,7 +13,7 @@ from openpyxl.utils.cell import column_index_from_string
 from spreadsheets.foreign import LAST_COLUMN, LAST_ROW, Position
 
 
-class Reference(NamedTuple):
+class TextReference(NamedTuple):
     """The cells that a formula refers to; their sheet is "" if it names none.
 
     `fixed` has a letter for each end that a $ fixes: t(op), l(eft), b(ottom), r(ight).
@@ -36,11 +36,11 @@ class Reference(NamedTuple):
         """Whether it refers to whole rows, such as 2:4."""
         return self.left == 1 and self.right == LAST_COLUMN
 
-    def seen_from(self, place: Position) -> "Reference":
+    def seen_from(self, place: Position) -> "TextReference":
         """The cells that it means in a formula at a place, if it is written for cell A1."""
         sheet, row, column = place
         down, right = row - 1, column - 1
-        return Reference(
+        return TextReference(
             self.sheet or sheet,
             self.top + down * ("t" not in self.fixed), self.left + right * ("l" not in self.fixed),
             self.bottom + down * ("b" not in self.fixed),
@@ -48,7 +48,7 @@ class Reference(NamedTuple):
         )  # fmt: skip
 
 
-Word = str | Reference
+Word = str | TextReference
 """A piece of a formula: a reference, or a word (an operator, a number, a name, a text)."""
 
 _COLUMN, _ROW = r"(\$?)([A-Za-z]{1,3})", r"(\$?)([1-9][0-9]{0,6})"
@@ -73,12 +73,12 @@ def words(formula: str) -> tuple[Word, ...]:
     >>> words("=abs( x ) * 2")
     ('=', 'ABS', '(', 'X', ')', '*', '2.0')
     >>> words("='my sheet'!$B$7/Yld1")[1:]
-    (Reference(sheet='my sheet', top=7, left=2, bottom=7, right=2, fixed='tlbr'), '/', 'YLD1')
+    (TextReference(sheet='my sheet', top=7, left=2, bottom=7, right=2, fixed='tlbr'), '/', 'YLD1')
     """
-    return tuple(_words(formula))
+    return tuple(_formula_words(formula))
 
 
-def _words(formula: str) -> Iterator[Word]:
+def _formula_words(formula: str) -> Iterator[Word]:
     last, blank = "", False
     for match in _WORDS.finditer(formula):
         kind, text = str(match.lastgroup), match[0]
@@ -99,7 +99,7 @@ def _words(formula: str) -> Iterator[Word]:
             yield text if kind == "text" else text.upper().removeprefix("_XLFN.")
 
 
-def _reference(match: "re.Match[str]") -> Reference | None:
+def _reference(match: "re.Match[str]") -> TextReference | None:
     """The reference that a piece of a formula is; None if no sheet has such cells."""
     sheet = match["sheet"] or ""
     if sheet.startswith("'"):
@@ -120,7 +120,7 @@ def _reference(match: "re.Match[str]") -> Reference | None:
     if max(numbers[::2]) > LAST_ROW or max(numbers[1::2]) > LAST_COLUMN:
         return None
     flags = zip((t_, l_, b_, r_), "tlbr", strict=True)
-    return Reference(sheet, *numbers, "".join(letter for dollar, letter in flags if dollar))
+    return TextReference(sheet, *numbers, "".join(letter for dollar, letter in flags if dollar))
 
 
 def outline(formula: str) -> str:

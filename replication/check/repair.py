@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from itertools import takewhile
 
-from spreadsheets.evaluate import Evaluator, Reference, Shape, column_letters, written
-from spreadsheets.foreign import Book, Cell, Position
+from spreadsheets.evaluate import CellReference, Evaluator, Shape, column_letters, formula_text
+from spreadsheets.foreign import Book, Position, StoredCell
 from spreadsheets.scalars import Scalar
 
 _LEAST = 5
@@ -43,7 +43,7 @@ def slipped(evaluator: Evaluator) -> Iterator[Slipped]:
         for ref in shape.references:
             if not _is_loose(ref) or ref.fixed[1 if across else 0]:
                 continue
-            meant = _meant(evaluator, ref, cells, across, fixed)
+            meant = _cell_meant(evaluator, ref, cells, across, fixed)
             if meant is not None:
                 yield Slipped(
                     tuple(cells), meant, {p: _with_dollars(shape, ref, meant, p) for p in cells}
@@ -51,14 +51,14 @@ def slipped(evaluator: Evaluator) -> Iterator[Slipped]:
                 break
 
 
-def _is_loose(ref: Reference) -> bool:
+def _is_loose(ref: CellReference) -> bool:
     """Whether a reference to a single cell moves when it is filled."""
     single = ref.rows[0] == ref.rows[1] and ref.columns[0] == ref.columns[1]
     return single and not (ref.fixed[0] and ref.fixed[1])
 
 
-def _meant(
-    evaluator: Evaluator, ref: Reference, cells: list[Position], across: bool,
+def _cell_meant(
+    evaluator: Evaluator, ref: CellReference, cells: list[Position], across: bool,
     fixed: set[Position],
 ) -> Position | None:  # fmt: skip
     """The cell that a reference was meant to read in all rows; None if it slips from none.
@@ -86,15 +86,15 @@ def _meant(
     return candidates[-1] if candidates and 0 < numbers <= len(before_rows) / 2 else None
 
 
-def _with_dollars(shape: Shape, ref: Reference, meant: Position, place: Position) -> str:
+def _with_dollars(shape: Shape, ref: CellReference, meant: Position, place: Position) -> str:
     """The formula of a cell with the reference fixed to the cell that is meant."""
-    loose = written(_key(ref), place[1], place[2])
+    loose = formula_text(_reference_key(ref), place[1], place[2])
     fixed = f"${column_letters(meant[2])}${meant[1]}"
-    text = written(shape.key, place[1], place[2])
+    text = formula_text(shape.key, place[1], place[2])
     return text.replace(loose, fixed)
 
 
-def _key(ref: Reference) -> str:
+def _reference_key(ref: CellReference) -> str:
     """A reference as the key of a shape has it, without its sheet."""
     row = f"{ref.rows[0]}" if ref.fixed[0] else f"[{ref.rows[0]}]"
     column = f"{ref.columns[0]}" if ref.fixed[1] else f"[{ref.columns[0]}]"
@@ -114,7 +114,7 @@ class Still:
     found: Scalar
 
 
-def standing(evaluator: Evaluator) -> Iterator[Still]:
+def still_cells(evaluator: Evaluator) -> Iterator[Still]:
     """The cells that may keep all rows from moving: a velocity that is blank, or a typed zero.
 
     Such a cell stands in a column between a number and a formula, and a formula reads it. It may
@@ -142,11 +142,11 @@ def moving(book: Book, still: Still) -> Book:
     """The book with the formula that was meant in a cell."""
     sheet, row, column = still.place
     cells = dict(book.sheets[sheet])
-    cells[row, column] = Cell(still.formula, None)
+    cells[row, column] = StoredCell(still.formula, None)
     return replace(book, sheets={**book.sheets, sheet: cells})
 
 
-def mended(book: Book, found: list[Slipped]) -> Book:
+def with_dollars(book: Book, found: list[Slipped]) -> Book:
     """The book with the formulas that were meant, which have no stored values."""
     sheets = {name: dict(cells) for name, cells in book.sheets.items()}
     for slip in found:

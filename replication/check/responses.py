@@ -11,9 +11,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reference.units import to_si
-from replication.check.fit import Cells, Fit, Literals, numbers_with
+from replication.check.fit import Cells, Literals, TableFit, numbers_with
 from replication.check.six import first_speed
-from replication.check.table import Table
+from replication.check.table import SchemeTable
 from spreadsheets.foreign import Position
 from spreadsheets.scalars import LiteralKey
 
@@ -45,7 +45,7 @@ Item = tuple[str, object]
 
 
 @dataclass(frozen=True, eq=False)
-class Source:
+class Influence:
     """A cell or a typed number that a row rests on, and the exponents of its response."""
 
     place: Position | None
@@ -116,7 +116,7 @@ class Trace:
     blank: frozenset[Position] = frozenset()
 
 
-def trace(table: Table, fitted: Fit) -> Trace:
+def trace(table: SchemeTable, fitted: TableFit) -> Trace:
     """Follow the formulas of the first rows and of the row that was probed."""
     evaluator, formulas = table.evaluator, table.evaluator.formulas
     starts = [table.place(role, k) for role in table.lines for k in (0, 1) if k in table.rows]
@@ -144,7 +144,7 @@ def trace(table: Table, fitted: Fit) -> Trace:
     return Trace(cells, numbers, frozenset(blank))
 
 
-def _single_cells(place: Position, table: Table) -> Iterator[Position]:
+def _single_cells(place: Position, table: SchemeTable) -> Iterator[Position]:
     """The cells that a formula reads, but for those of large ranges."""
     for area in table.evaluator.areas(place):
         if area.cells <= _FEW:
@@ -152,7 +152,7 @@ def _single_cells(place: Position, table: Table) -> Iterator[Position]:
 
 
 def _typed_into(
-    place: Position, table: Table
+    place: Position, table: SchemeTable
 ) -> Iterator[tuple[LiteralKey, tuple[float, Position | None]]]:
     """The numbers typed into a formula and into the names that it uses."""
     shape = table.evaluator.formulas[place]
@@ -163,12 +163,12 @@ def _typed_into(
             yield (name, index), (value, None)
 
 
-def sources(table: Table, fitted: Fit) -> list[Source]:
+def influences(table: SchemeTable, fitted: TableFit) -> list[Influence]:
     """Everything that the table rests on, with its exponents."""
     values, found = table.evaluator.values, trace(table, fitted)
     numbers = {p: v for p in found.cells if type(v := values[p]) is float}
     if fitted.probe is None:
-        return [Source(p, None, value, {}, found.cells[p]) for p, value in numbers.items()]
+        return [Influence(p, None, value, {}, found.cells[p]) for p, value in numbers.items()]
     base = _all_numbers(table, fitted, {}, {})
 
     def exponents(cells: Cells, literals: Literals) -> dict[str, float]:
@@ -178,15 +178,15 @@ def sources(table: Table, fitted: Fit) -> list[Source]:
         return {n: math.log(ratio) / math.log(_NUDGE) for n, ratio in good.items()}
 
     result = [
-        Source(p, None, value, exponents({p: value * _NUDGE}, {}), found.cells[p])
+        Influence(p, None, value, exponents({p: value * _NUDGE}, {}), found.cells[p])
         for p, value in numbers.items()
         if math.isfinite(value * _NUDGE) and value
     ]
-    result += [Source(p, None, 0.0, {}) for p, value in numbers.items() if not value]
+    result += [Influence(p, None, 0.0, {}) for p, value in numbers.items() if not value]
 
-    def typed(plain: bool) -> list[Source]:
+    def typed(plain: bool) -> list[Influence]:
         some = ((k, *entry) for k, entry in found.numbers.items() if is_plain(entry[0]) == plain)
-        return [Source(p, k, v, exponents({}, {k: v * _NUDGE})) for k, v, p in some if v]
+        return [Influence(p, k, v, exponents({}, {k: v * _NUDGE})) for k, v, p in some if v]
 
     result += typed(plain=False)
     stepless = [
@@ -197,12 +197,12 @@ def sources(table: Table, fitted: Fit) -> list[Source]:
     return result + (_plain_steps(typed(plain=True), stepless) if stepless else [])
 
 
-def _plain_steps(plain: Sequence[Source], stepless: Sequence[str]) -> list[Source]:
+def _plain_steps(plain: Sequence[Influence], stepless: Sequence[str]) -> list[Influence]:
     """The steps among powers of ten that are typed into formulas, such as 1E-9.
 
     Mostly these convert a unit. Where nothing else gives a column its step, a single one is it.
     """
-    steps: list[Source] = []
+    steps: list[Influence] = []
     for symbol in stepless:
         own = [s for s in plain if s.value < _MOST_STEP and s.family == "step"]
         own = [s for s in own if abs(s.powers.get(symbol, 0.0) - 1) < 0.02]
@@ -211,7 +211,9 @@ def _plain_steps(plain: Sequence[Source], stepless: Sequence[str]) -> list[Sourc
     return steps
 
 
-def _all_numbers(table: Table, fitted: Fit, cells: Cells, literals: Literals) -> dict[str, float]:
+def _all_numbers(
+    table: SchemeTable, fitted: TableFit, cells: Cells, literals: Literals
+) -> dict[str, float]:
     """The six numbers and the time step, with some inputs replaced."""
     result = numbers_with(fitted, table, cells, literals)
     if (start := first_speed(table)) is not None:
@@ -221,10 +223,15 @@ def _all_numbers(table: Table, fitted: Fit, cells: Cells, literals: Literals) ->
     return result
 
 
-def unit_power(power: float, slack: float) -> float | None:
-    """The power of ten between two units, or that of an unusual unit; None if it is neither."""
+def unit_power(power: float, slack: float, error: float = 0.0) -> float | None:
+    """The power of ten between two units, or that of an unusual unit; None if it is neither.
+
+    It may be off by `slack` from a power of ten. Unusual units are many, so that one is taken only
+    where a power agrees with it up to the error of the digits.
+    """
     near = round(power)
     if abs(power - near) <= slack + 2 * CLOSE:
         return float(near)
-    unusual = any(abs((power - u) - round(power - u)) < 1e-6 for u in _UNUSUAL)
+    close = max(1e-6, error)
+    unusual = any(abs((power - u) - round(power - u)) < close for u in _UNUSUAL)
     return power if unusual else None

@@ -10,14 +10,21 @@ from fractions import Fraction
 from reference.ledger import Claim, load
 from reference.units import same_dimension, to_si
 from replication.check.ends import NEAR_END, OTHER_STOP
-from replication.check.examination import NO_FAULT, Difference, Examination, near
+from replication.check.examination import NO_FAULT, Departure, Examination, near
 from replication.check.labels import label_of
 from replication.check.responses import is_plain
-from replication.check.table import LEAST, address
-from replication.check.taken import case_of, report_inputs
-from replication.check.words import number_in, power_of_ten, result_of, times_too, title, unit_text
+from replication.check.table import LEAST, cell_name
+from replication.check.taken import report_case, report_inputs
+from replication.check.words import (
+    number_in,
+    power_of_ten,
+    result_named,
+    times_too,
+    title,
+    unit_name,
+)
 from replication.text import with_unit
-from spreadsheets.evaluate import Evaluator, written
+from spreadsheets.evaluate import Evaluator, formula_text
 from spreadsheets.foreign import Position
 from spreadsheets.scalars import Area
 
@@ -153,7 +160,7 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
                 result = source
                 text = _taken_from(source)
             formula = evaluator.formulas[result.place]
-            shown = written(formula.key, result.place[1], result.place[2])
+            shown = formula_text(formula.key, result.place[1], result.place[2])
             exam.add(kind, [result.place], expected, text, shown if kind == "odd formula" else unit)
             wrong.add(result.place)
 
@@ -167,9 +174,9 @@ def _typed_radius(result: Result, evaluator: Evaluator) -> None:
             continue
         for number in shape.literals:
             if not is_plain(number) and power_of_ten(number / entry.value) is not None:
-                where = address(entry.place, entry.place[0] != result.place[0])
+                where = cell_name(entry.place, entry.place[0] != result.place[0])
                 text = f"{title(role)} is typed as {number:.10g}, where {where} should be read"
-                shown = written(shape.key, result.place[1], result.place[2])
+                shown = formula_text(shape.key, result.place[1], result.place[2])
                 exam.add("typed constant", [result.place], where, text, shown)
                 return
 
@@ -183,7 +190,7 @@ def _fault(
 ) -> Fault | None:
     """What is wrong with a result; None if nothing."""
     table = result.exam.table
-    named = result_of(label) if label else None
+    named = result_named(label) if label else None
     last = result.exam.last
     x, final = table.number("depth", result.k), table.number("depth", last)
     if result.k != last and x != final:
@@ -225,7 +232,7 @@ def _other_row(
     if not close or _ANOTHER_ROW.search(label) or (shows_last and named is None):
         return None
     cell = exam.table.place("depth", last)
-    return "odd formula", address(cell, cell[0] != result.place[0]), _taken_from(result)
+    return "odd formula", cell_name(cell, cell[0] != result.place[0]), _taken_from(result)
 
 
 def _taken_from(result: Result) -> str:
@@ -256,7 +263,7 @@ def _other_unit(result: Result, unit: str) -> Fault | None:
     power = result.exam.units.get("depth", 0.0) - result.power
     if abs(stated - power) <= 1e-9 or abs(stated - round(stated)) >= 1e-9:
         return None
-    shown = unit_text("depth", round(power))
+    shown = unit_name("depth", round(power))
     text = f"the label gives {_what(result)} in {unit}, but the number is in {shown}"
     return "unit", shown, text
 
@@ -283,7 +290,7 @@ class PrintedCell:
     met: bool
     typed: bool
 
-    def unmet(self, exam: Examination) -> Difference:
+    def unmet(self, exam: Examination) -> Departure:
         """Return the difference for a number that is not as printed."""
         claim, rank = self.claim, (3.0, *exam.rank(self.place))
         printed, interval = (
@@ -292,7 +299,7 @@ class PrintedCell:
         text = f"the report prints {printed} for {claim.title} ({claim.place}), "
         text += f"which stands for values in {interval}"
         value = exam.table.evaluator.values.get(self.place)
-        return Difference("printed number", (self.place,), printed, value, text, rank)
+        return Departure("printed number", (self.place,), printed, value, text, rank)
 
 
 def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterator[PrintedCell]:
@@ -301,7 +308,7 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
     A typed number belongs to the only table, or to that whose beta its label names.
     """
     for exam in exams:
-        case = case_of(exam.intended, max(1e-9, 10 * exam.fitted.slack))
+        case = report_case(exam.intended, exam.fitted)
         if case is None:
             continue
         assert exam.intended is not None
@@ -321,7 +328,7 @@ def _typed_result(
     exam: Examination, case: str, place: Position, label: str, unit: str | None
 ) -> Iterator[PrintedCell]:
     """A typed number as a final depth or X/R of a case, if it may be one."""
-    kind, number = result_of(label), exam.table.evaluator.values[place]
+    kind, number = result_named(label), exam.table.evaluator.values[place]
     if type(number) is not float or not number:
         return
     value = Fraction(number)
@@ -339,7 +346,7 @@ def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]
     for (sheet, row, column), text in list(evaluator.values.items()):
         if not isinstance(text, str) or (sheet, row, column) in evaluator.formulas:
             continue
-        if result_of(text) not in ("depth", "ratio"):
+        if result_named(text) not in ("depth", "ratio"):
             continue
         for down, right in ((0, 1), (1, 0)):
             place = (sheet, row + down, column + right)

@@ -9,10 +9,18 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from reference.units import same_dimension
-from replication.check.fit import Fit
+from replication.check.fit import TableFit
 from replication.check.labels import idle_numbers, label_of
-from replication.check.responses import CLOSE, FAMILIES, Item, Source, is_plain, sources, unit_power
-from replication.check.table import Table
+from replication.check.responses import (
+    CLOSE,
+    FAMILIES,
+    Influence,
+    Item,
+    influences,
+    is_plain,
+    unit_power,
+)
+from replication.check.table import SchemeTable
 from replication.check.words import input_roles
 from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Position
@@ -43,15 +51,15 @@ class Inputs:
     of them the workbook states, and whether surely.
     """
 
-    sources: list[Source]
-    cells: dict[str, Source] = field(default_factory=dict)
-    derived: dict[str, Source] = field(default_factory=dict)
+    sources: list[Influence]
+    cells: dict[str, Influence] = field(default_factory=dict)
+    derived: dict[str, Influence] = field(default_factory=dict)
     powers: dict[Item, float] = field(default_factory=dict)
     stated: dict[Item, bool] = field(default_factory=dict)
     labels: dict[Position, tuple[str, str | None]] = field(default_factory=dict)
     how: dict[str, str] = field(default_factory=dict)
 
-    def label(self, source: Source) -> tuple[str, str | None]:
+    def label(self, source: Influence) -> tuple[str, str | None]:
         """The label of a cell, or the name of a number, and the unit that it states."""
         if source.cell is None:
             return source.name, None
@@ -66,11 +74,12 @@ class Inputs:
 
 
 def recognize(
-    table: Table, fitted: Fit, given: Mapping[str, Position], names: Mapping[Position, str],
+    table: SchemeTable, fitted: TableFit, given: Mapping[str, Position],
+    names: Mapping[Position, str],
     idle: Iterable[Position],
 ) -> Inputs:  # fmt: skip
     """The inputs of a table; `given` are the cells that the user named, `idle` cells unread."""
-    inputs = Inputs(sources(table, fitted))
+    inputs = Inputs(influences(table, fitted))
     reader = _Roles(table.evaluator, names, inputs, fitted.six.D)
     reader.by_response()
     reader.by_label()
@@ -94,7 +103,7 @@ class _Roles:
     known: dict[Position, frozenset[str]] = field(default_factory=dict)
     parts: set[Position] = field(default_factory=set)
 
-    def roles(self, source: Source) -> frozenset[str]:
+    def roles(self, source: Influence) -> frozenset[str]:
         """The inputs that the label of a cell, or the name of a number, may name."""
         if source.name:
             return input_roles(source.name, None)
@@ -114,7 +123,7 @@ class _Roles:
                 self.inputs.stated["cell", place] = sure
         return self.known[place]
 
-    def put(self, where: dict[str, Source], role: str, source: Source) -> None:
+    def put(self, where: dict[str, Influence], role: str, source: Influence) -> None:
         """Give a source a role, unless another one has it."""
         if role not in where:
             where[role] = source
@@ -138,20 +147,22 @@ class _Roles:
                     where = self.inputs.derived if source.computed else self.inputs.cells
                     self.put(where, members[0], source)
 
-    def ordered(self, own: Sequence[Source], family: str, members: Sequence[str]) -> list[Source]:
+    def ordered(
+        self, own: Sequence[Influence], family: str, members: Sequence[str]
+    ) -> list[Influence]:
         """The typed cells of a family, those with a label first; without conversion factors."""
         typed = [source for source in own if not source.computed]
         named = {source: bool(self.roles(source) & set(members)) for source in typed}
         kept = [s for s in typed if named[s] or not _is_factor(s, family) or len(typed) == 1]
         return sorted(kept, key=lambda s: (not named[s], is_plain(s.value)))
 
-    def numbers(self, family: str) -> list[Source]:
+    def numbers(self, family: str) -> list[Influence]:
         """The numbers of a family that are typed into formulas or names, each value once."""
         literals = (source for source in self.inputs.sources if source.literal is not None)
         some = {source.value: source for source in literals if source.family == family}
         return list(some.values()) if len(some) <= 2 else []
 
-    def size(self, typed: Sequence[Source], made: Sequence[Source]) -> None:
+    def size(self, typed: Sequence[Influence], made: Sequence[Influence]) -> None:
         """Give out radius and diameter."""
         cells, derived = self.inputs.cells, self.inputs.derived
         typed, made = self.computed_radius(typed, made)
@@ -169,7 +180,7 @@ class _Roles:
             elif not typed:
                 self.put(derived, self.radius_or_diameter(source), source)
 
-    def is_wrong_half(self, source: Source, typed: Sequence[Source]) -> bool:
+    def is_wrong_half(self, source: Influence, typed: Sequence[Influence]) -> bool:
         """Whether a formula for the radius is not half of the only typed cell, a diameter."""
         if self.roles(source) != {"radius"} or len(typed) != 1:
             return False
@@ -179,8 +190,8 @@ class _Roles:
         return is_diameter and abs(power - round(power)) > CLOSE
 
     def computed_radius(
-        self, typed: Sequence[Source], made: Sequence[Source]
-    ) -> tuple[Sequence[Source], Sequence[Source]]:
+        self, typed: Sequence[Influence], made: Sequence[Influence]
+    ) -> tuple[Sequence[Influence], Sequence[Influence]]:
         """Take a radius that is computed from several cells for a typed one, without these."""
         members = {"radius", "diameter"}
         for source in made:
@@ -192,7 +203,7 @@ class _Roles:
                 return [source, *left], [other for other in made if other is not source]
         return typed, made
 
-    def radius_or_diameter(self, source: Source) -> str:
+    def radius_or_diameter(self, source: Influence) -> str:
         """Which of both a cell is: by D = 2R up to a power of ten, or by its label."""
         label = self.roles(source) & {"radius", "diameter"}
         if 0 < self.D < math.inf:
@@ -202,7 +213,7 @@ class _Roles:
                     return role
         return next(iter(label)) if len(label) == 1 else "radius"
 
-    def inertia(self, typed: Sequence[Source], made: Sequence[Source]) -> None:
+    def inertia(self, typed: Sequence[Influence], made: Sequence[Influence]) -> None:
         """Give out mass and particle density."""
         cells, derived = self.inputs.cells, self.inputs.derived
         radius = cells.get("radius") or cells.get("diameter")
@@ -221,8 +232,8 @@ class _Roles:
             self.put(cells, next(iter(label)) if len(label) == 1 else unsaid, source)
 
     def converted(
-        self, typed: Sequence[Source], made: Sequence[Source], radius: Source | None
-    ) -> tuple[Sequence[Source], Sequence[Source]]:
+        self, typed: Sequence[Influence], made: Sequence[Influence], radius: Influence | None
+    ) -> tuple[Sequence[Influence], Sequence[Influence]]:
         """Take a particle density that is computed, as by a factor in a cell, for a typed one."""
         members = {"mass", "particle_density"}
         if any(self.roles(source) & members for source in typed):
@@ -234,7 +245,7 @@ class _Roles:
                 return [source, *left], [other for other in made if other is not source]
         return typed, made
 
-    def strength(self, typed: Sequence[Source], made: Sequence[Source]) -> None:
+    def strength(self, typed: Sequence[Influence], made: Sequence[Influence]) -> None:
         """Give out resistance, beta and flow stress."""
         cells, derived = self.inputs.cells, self.inputs.derived
         members = set(FAMILIES["strength"])
@@ -269,12 +280,12 @@ class _Roles:
             ):
                 self.put(derived, "resistance", source)
 
-    def has_mass(self, source: Source) -> bool:
+    def has_mass(self, source: Influence) -> bool:
         """Whether a formula reads a mass, or what the mass rests on: it is no resistance."""
         others = (o for o in self.inputs.sources if o.family in ("inertia", "size"))
         return any(self.rests_on(source, other) for other in others)
 
-    def is_stress(self, source: Source) -> bool:
+    def is_stress(self, source: Influence) -> bool:
         """Whether the label of a cell has a unit of stress beside its words.
 
         A short word alone may be a unit by chance.
@@ -282,7 +293,7 @@ class _Roles:
         label, unit = self.inputs.label(source)
         return bool(label) and unit is not None and same_dimension(unit, "Pa")
 
-    def without_effect(self, made: Sequence[Source]) -> list[Source]:
+    def without_effect(self, made: Sequence[Influence]) -> list[Influence]:
         """The typed cell that a formula for the resistance reads without any effect.
 
         Where a product of beta and flow stress was meant, a beta that is added vanishes.
@@ -299,7 +310,7 @@ class _Roles:
                 return still
         return []
 
-    def rests_on(self, source: Source, other: Source | None) -> bool:
+    def rests_on(self, source: Influence, other: Influence | None) -> bool:
         """Whether the formula of a cell reads another cell, directly or not."""
         if other is None or other.cell is None or source.place is None:
             return False
@@ -320,7 +331,7 @@ class _Roles:
                     (derived if source.computed else cells)[role] = source
                     self.inputs.how[role] = "label"
 
-    def gives_way(self, known: Source | None, labelled: Source) -> bool:
+    def gives_way(self, known: Influence | None, labelled: Influence) -> bool:
         """Whether a labelled cell may have a role: nothing has, or a number typed in its place.
 
         A number in a formula that reads the cell, too, does not stand in its place.
@@ -340,7 +351,7 @@ class _Roles:
             known = self.inputs.cells.get(role)
             if (known is None or known.cell is None) and role not in self.inputs.derived:
                 is_formula = place in self.evaluator.formulas
-                self.inputs.cells[role] = Source(place, None, value, {}, is_formula)
+                self.inputs.cells[role] = Influence(place, None, value, {}, is_formula)
                 self.inputs.how[role] = "unread"
 
     def unused(self, name: str, value: float) -> None:
@@ -351,7 +362,7 @@ class _Roles:
             known = self.inputs.cells.get(role)
             typed = known is None or (known.cell is None and not known.name)
             if typed and role not in self.inputs.derived:
-                self.inputs.cells[role] = Source(None, (name.upper(), 0), value, {})
+                self.inputs.cells[role] = Influence(None, (name.upper(), 0), value, {})
                 self.inputs.how[role] = "unread"
 
     def mapped(self, role: str, place: Position) -> None:
@@ -362,11 +373,11 @@ class _Roles:
         known = next((s for s in self.inputs.sources if s.cell == place), None)
         self.inputs.derived.pop(role, None)
         is_formula = place in self.evaluator.formulas
-        self.inputs.cells[role] = known or Source(place, None, value, {}, is_formula)
+        self.inputs.cells[role] = known or Influence(place, None, value, {}, is_formula)
         self.inputs.how[role] = "--map"
 
 
-def _is_factor(source: Source, family: str) -> bool:
+def _is_factor(source: Influence, family: str) -> bool:
     """Whether a cell holds a conversion factor or pi. A beta may be any small number but 1."""
     power = math.log10(abs(source.value))
     if family == "strength":
@@ -374,7 +385,7 @@ def _is_factor(source: Source, family: str) -> bool:
     return is_plain(source.value)
 
 
-def _is_alias(source: Source, others: Sequence[Source]) -> bool:
+def _is_alias(source: Influence, others: Sequence[Influence]) -> bool:
     """Whether a formula only shows a typed cell that it responds like, perhaps in another unit."""
     for other in others:
         ratio = source.value / other.value

@@ -1,104 +1,187 @@
-"""Numbers without formulas: the six numbers fitted to the rows, their digits as uncertainty."""
+"""Numbers without formulas: the six numbers fitted to the rows, with what their digits admit."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from statistics import median
+from typing import NamedTuple
 
-from replication.check.fit import Fit, fit_formulas
+from replication.check.fit import TableFit, fit_formulas
 from replication.check.six import (
+    EXACT,
     REPORT,
     VARIANTS,
     Six,
     end_of_row,
     impact_velocity,
     start_of_row,
-    time_step,
 )
-from replication.check.table import Table
+from replication.check.table import SchemeTable
 
-Row = tuple[float, float, float]
-"""Depth, velocity (later its square) and deceleration of a row."""
 _ENOUGH = 20
 """So many digits in all rows together tell the three numbers of a force."""
+_FAR = 3.0
+"""A row whose deviation is so many times what its digits admit is not explained."""
+_FIRST_ROWS = 6
+"""So many rows are tried as the only ones before the depth R."""
+_SMALL = 1e-6
+"""Of decelerations that are a smaller part of the largest one, the absolute error counts."""
+_LEAST = 1e-280
+"""A deceleration is larger: the square of its error is to be a double."""
+_RIDGE = 1e-12
+"""What is added to each pivot, so that numbers that the rows do not tell stay where they are."""
 
 
-def fit_table(table: Table) -> Fit:
-    """Fit a table: by its formulas, where it has them, or else by its numbers."""
-    return fit_formulas(table) or fit_numbers(table)
+class ForceRow(NamedTuple):
+    """Depth, velocity and deceleration, and the relative error of this that the digits admit."""
+
+    x: float
+    u: float
+    a: float
+    error: float
 
 
-def fit_numbers(table: Table) -> Fit:
+class ForceOfRows(NamedTuple):
+    """G, H and D of a force, what the digits admit as their relative errors, and its ways."""
+
+    G: float
+    H: float
+    D: float
+    errors: tuple[float, float, float] = (math.inf, math.inf, math.inf)
+    bounded: bool = True
+    centered: bool = False
+
+    def at(self, x: float, u: float) -> float:
+        """The deceleration at a depth and a velocity."""
+        half = self.D / 2
+        area = self.D * x - x * x if x < half or not self.bounded else half * half
+        return (self.G * u * u + self.H) * area
+
+
+def fit_table(table: SchemeTable) -> tuple[SchemeTable, TableFit]:
+    """Fit a table: by its formulas, where it has them, or else by its numbers.
+
+    Two formulas may share a column, a wrong one that most cells have and a right one that at least
+    a quarter has: the table is returned with the right one as that which its cells should have.
+    """
+    fitted = fit_formulas(table)
+    if fitted is None:
+        return table, fit_numbers(table)
+    for trial in _with_rarer_formulas(table) if fitted.odd else ():
+        again = fit_formulas(trial)
+        if again is not None and again.probe is not None and not again.odd:
+            return trial, again
+    return table, fitted
+
+
+def _with_rarer_formulas(table: SchemeTable) -> Iterator[SchemeTable]:
+    """The table with the second formula of one of its columns in place of the usual one."""
+    for line in (*table.lines.values(), *table.helpers):
+        for shape, count in line.shapes.most_common(2)[1:]:
+            if line.usual is not None and shape is not line.usual and 4 * count >= len(line.values):
+                other = replace(line, meant=shape)
+                lines = {r: other if o is line else o for r, o in table.lines.items()}
+                helpers = tuple(other if o is line else o for o in table.helpers)
+                yield replace(table, lines=lines, helpers=helpers, places={})
+
+
+def fit_numbers(table: SchemeTable) -> TableFit:
     """Fit the rows of a table without formulas; of few rows with few digits only the steps."""
-    start, end = start_of_row(table), end_of_row(table)
-    growth, falls, forces = [], [], []
-    shown = "deceleration" in table.lines
-    for k in sorted(table.rows):
-        x, before = table.number("depth", k), table.number("depth", k - 1)
-        u, w = table.number(start[0], k + start[1]), table.number(end[0], k + end[1])
-        if x is not None and before is not None and u and k > 1:
-            growth.append((x - before) / u)
-        if u is None or k < 1:
-            continue
-        a = table.number("deceleration", k) if shown else None if w is None else u - w
-        if a and shown and w is not None:
-            falls.append((u - w) / a)
-        if a and x is not None:
-            forces.append((x, u, a))
-    c = _middle(growth)
-    e = _middle(falls) if falls else c
-    sign = -1.0 if shown and forces and median(a for *_, a in forces) < 0 else 1.0
-    force = Six(math.nan, math.nan, math.nan, 1.0, 1.0, 1.0)
-    bounded, centered = True, False
-    digits = _uncertainty(table)
-    slack = digits
-    if forces and not shown:  # what velocities fall by has fewer digits than they have
-        line = table.lines[start[0]]
-        error = 2 * line.rounding(max(u for _, u, _ in forces))
-        slack = max(slack, min(0.05, error / (median(abs(a) for *_, a in forces) or 1.0)))
-    if -len(forces) * math.log10(slack) > _ENOUGH:
-        divisor = sign if shown else e
-        rows = [(x, u, a / divisor) for x, u, a in forces]
-        force, bounded, centered = _best_force(rows, abs(e), slack)
-    six = Six(*force[:3], c, sign * e if falls else c, impact_velocity(table))
+    end, shown = end_of_row(table), "deceleration" in table.lines
+    c, c_error = _common_ratio(list(_growths(table)))
+    e, e_error = _common_ratio(list(_falls_over_brake(table))) if shown else (c, c_error)
+    rows = list(_forces(table))
+    sign = -1.0 if shown and rows and median(row.a for row in rows) < 0 else 1.0
+    divisor = sign if shown else e
+    rows = _of_one_scale([row._replace(a=row.a / divisor) for row in rows if divisor])
+    rough = median(row.error for row in rows) if rows else EXACT
+    force = ForceOfRows(math.nan, math.nan, math.nan)
+    if rows and math.isfinite(e) and -len(rows) * math.log10(rough) > _ENOUGH:
+        force = _best_force(rows, abs(e))
+    time, time_error = _common_ratio(list(_time_steps(table)))
+    V = impact_velocity(table)
+    speed = table.lines["velocity_initial" if "velocity_initial" in table.lines else end[0]]
+    V_error = speed.rounding(V) / abs(V) if V else math.inf
+    six = Six(force.G, force.H, force.D, c, sign * e, V)
     ways = {role: REPORT[role] for role in ("depth", "deceleration", "velocity_final")}
-    if centered:
+    if force.centered:
         ways["deceleration"] = VARIANTS["centered"]
-    return Fit(
-        six, time_step(table), sign, ways, "deceleration" if shown else end[0], slack=slack,
-        bounded=bounded, centered=centered, digits=digits,
+    return TableFit(
+        six, time, sign, ways, "deceleration" if shown else end[0],
+        bounded=force.bounded, centered=force.centered, digits=_fewest_digits(table), rough=rough,
+        errors=Six(*force.errors, c_error, e_error, V_error), time_error=time_error,
     )  # fmt: skip
 
 
-def _best_force(rows: Sequence[Row], e: float, slack: float) -> tuple[Six, bool, bool]:
-    """The force that rows (x, u, a) show, whether it is bounded, and whether it is centered.
-
-    It is the report's, unless that misses the rows by more than their digits, and another one by
-    a tenth of that at most.
-    """
-    force = Six(*_least_squares(rows), 1.0, 1.0, 1.0)
-    missed = _usual_miss(rows, force)
-    if not missed > slack / 4 or len(rows) < 8:
-        return force, True, False
-    free = Six(*_least_squares(rows, bounded=False), 1.0, 1.0, 1.0)
-    if max(x for x, *_ in rows) > free.D / 2 and _usual_miss(rows, free, False) < missed / 10:
-        return free, False, False
-    central, middle = force, rows
-    for _ in range(8):
-        middle = [(x, u - e / 2 * central.deceleration(x, u), a) for x, u, a in rows]
-        central = Six(*_least_squares(middle), 1.0, 1.0, 1.0)
-    if _usual_miss(middle, central) < missed / 10:
-        return central, True, True
-    return force, True, False
+# ---- the rows
 
 
-def _usual_miss(rows: Sequence[Row], six: Six, bounded: bool = True) -> float:
-    """The median of the relative deviations of rows from a fit; infinite if there is no fit."""
-    miss = median(abs(six.deceleration(x, u, bounded) / a - 1) for x, u, a in rows)
-    return miss if math.isfinite(miss) else math.inf
+def _speeds(table: SchemeTable, k: int) -> tuple[float | None, float | None]:
+    """The velocities at the start and at the end of row k."""
+    (start, lag), (end, ahead) = start_of_row(table), end_of_row(table)
+    return table.number(start, k + lag), table.number(end, k + ahead)
 
 
-def _uncertainty(table: Table) -> float:
-    """The relative uncertainty of what is fitted to typed numbers, by the digits of these."""
+def _time_steps(table: SchemeTable) -> Iterator[tuple[float, float]]:
+    """By how much the time grows, row by row, and the error by the digits."""
+    for k in sorted(table.rows):
+        now, before = table.number("time", k), table.number("time", k - 1)
+        if now is not None and before is not None:
+            line = table.lines["time"]
+            yield now - before, line.rounding(now) + line.rounding(before)
+
+
+def _growths(table: SchemeTable) -> Iterator[tuple[float, float]]:
+    """By how much the depth grows over the velocity, row by row, and the error by the digits."""
+    depth, speed = table.lines["depth"], table.lines[start_of_row(table)[0]]
+    for k in sorted(table.rows):
+        x, before = table.number("depth", k), table.number("depth", k - 1)
+        u, _ = _speeds(table, k)
+        if x is not None and before is not None and u and k > 1:
+            error = depth.rounding(x) + depth.rounding(before)
+            error += abs(x - before) * speed.rounding(u) / abs(u)
+            yield (x - before) / u, error / abs(u)
+
+
+def _falls_over_brake(table: SchemeTable) -> Iterator[tuple[float, float]]:
+    """By how much the velocity falls over the deceleration, and the error by the digits."""
+    start, end = (table.lines[at(table)[0]] for at in (start_of_row, end_of_row))
+    brake = table.lines["deceleration"]
+    for k in sorted(table.rows):
+        a, (u, w) = table.number("deceleration", k), _speeds(table, k)
+        if a and u is not None and w is not None and k >= 1:
+            error = start.rounding(u) + end.rounding(w) + abs(u - w) * brake.rounding(a) / abs(a)
+            yield (u - w) / a, error / abs(a)
+
+
+def _forces(table: SchemeTable) -> Iterator[ForceRow]:
+    """The rows by which a force is fitted: of decelerations, or of what the velocity falls by."""
+    start, end = (table.lines[at(table)[0]] for at in (start_of_row, end_of_row))
+    depth, brake = table.lines["depth"], table.lines.get("deceleration")
+    for k in sorted(table.rows):
+        x, (u, w) = table.number("depth", k), _speeds(table, k)
+        if not x or not u or k < 1:
+            continue
+        if brake is not None:
+            a = table.number("deceleration", k)
+            error = brake.rounding(a) if a else 0.0
+        else:
+            a = None if w is None else u - w
+            error = 0.0 if w is None else start.rounding(u) + end.rounding(w)
+        if a:
+            error = error / abs(a) + depth.rounding(x) / abs(x) + 2 * start.rounding(u) / abs(u)
+            yield ForceRow(x, u, a, max(EXACT, error))
+
+
+def _of_one_scale(rows: Sequence[ForceRow]) -> list[ForceRow]:
+    """The rows; a deceleration far below the largest one counts no more than that shows."""
+    least = _SMALL * max((abs(row.a) for row in rows), default=0.0)
+    some = [row for row in rows if _LEAST < abs(row.a) < math.inf]
+    return [row._replace(error=row.error * max(1.0, least / abs(row.a))) for row in some]
+
+
+def _fewest_digits(table: SchemeTable) -> float:
+    """The relative uncertainty of the numbers as typed, in the column with the fewest digits."""
     worst = 1e-9
     for role, line in table.lines.items():
         sizes = [abs(value) for value in line.values.values() if value]
@@ -107,108 +190,223 @@ def _uncertainty(table: Table) -> float:
     return min(0.05, 4 * worst)
 
 
-def _middle(values: Sequence[float]) -> float:
-    """The mean of the middle half of some numbers; NaN if there are none."""
-    ordered = sorted(values)
-    quarter = len(ordered) // 4
-    kept = ordered[quarter : len(ordered) - quarter]
-    return math.fsum(kept) / len(kept) if kept else math.nan
+def _common_ratio(ratios: Sequence[tuple[float, float]]) -> tuple[float, float]:
+    """The constant that most of some ratios show, and its relative error; NaN if there is none.
 
-
-def _least_squares(rows: Sequence[Row], bounded: bool = True) -> tuple[float, float, float]:
-    """G, H and D with a = (G u² + H)(D x - x²), constant beyond D/2 if `bounded`, by least squares.
-
-    A wrong number spoils a third of the rows; the fit to the others misses least of all rows, and
-    is repeated without those that it misses.
+    Each ratio has an error by its digits; those that are far from the middle are left out.
     """
-    nan = (math.nan, math.nan, math.nan)
+    if not ratios:
+        return math.nan, math.inf
+    best = sorted(ratios, key=lambda entry: entry[1])[: max(3, len(ratios) // 2)]
+    middle = median(ratio for ratio, _ in best)
+    if not middle or not math.isfinite(middle):
+        return middle, math.inf
+    usual = median(abs(ratio / middle - 1) for ratio, _ in best)
+    parts = [(ratio / middle - 1, error / abs(middle) + 1e-15) for ratio, error in ratios]
+    near = [(off, error) for off, error in parts if abs(off) <= _FAR * (error + usual)]
+    weights = [error**-2 for _, error in near]
+    total = math.fsum(weights)
+    off = math.fsum(w * off for w, (off, _) in zip(weights, near, strict=True)) / total
+    error = math.fsum(w * error for w, (_, error) in zip(weights, near, strict=True)) / total
+    return middle * (1 + off), max(EXACT, error)
+
+
+# ---- the force
+
+
+def _best_force(rows: Sequence[ForceRow], e: float) -> ForceOfRows:
+    """The force that rows show: the report's, unless another way explains three more rows."""
+    force = _fitted_force(rows)
+    explained = _explained(rows, force)
+    if explained == len(rows) or len(rows) < 8:
+        return force
+    others = []
+    free = _fitted_force(rows, bounded=False)
+    if max(row.x for row in rows) > free.D / 2:
+        others.append((_explained(rows, free), free))
+    central, middle = force, list(rows)
+    for _ in range(8):
+        middle = [row._replace(u=row.u - e / 2 * central.at(row.x, row.u)) for row in rows]
+        central = _fitted_force(middle)
+    others.append((_explained(middle, central), central._replace(centered=True)))
+    count, best = max(others, key=lambda entry: entry[0])
+    better = count >= explained + 3 and count > len(rows) / 2
+    return best if better else force
+
+
+def _explained(rows: Sequence[ForceRow], force: ForceOfRows) -> int:
+    """How many rows a force explains by their digits."""
+    return sum(miss <= _FAR for miss in _misses(rows, force))
+
+
+def _misses(rows: Sequence[ForceRow], force: ForceOfRows) -> list[float]:
+    """The deviation of each row from a force, over what its digits admit."""
+    return [abs(force.at(row.x, row.u) - row.a) / (row.error * abs(row.a)) for row in rows]
+
+
+def _fitted_force(rows: Sequence[ForceRow], bounded: bool = True) -> ForceOfRows:
+    """G, H and D with a = (G u² + H)(D x - x²), constant beyond D/2 if `bounded`.
+
+    Wrong rows spoil a fit. So several starts are tried; the best one misses most rows by little,
+    and is repeated without those that it misses.
+    """
+    lost = ForceOfRows(math.nan, math.nan, math.nan, bounded=bounded)
     if len(rows) < 4:
-        return nan
+        return lost
     X, U, A = (max(abs(row[i]) for row in rows) or 1.0 for i in range(3))
-    data = [(x / X, (u / U) ** 2, a / A) for x, u, a in rows]
-    thirds = [data[i::3] for i in range(3)] if len(data) >= 12 else []
-    # Where most rows are beyond the radius, only the first ones tell the sphere.
-    shallow = [data[: len(data) // n] for n in (2, 4, 8, 16) if len(data) // n >= 8]
-    fits = [
-        six
-        for part in (data, *thirds, *shallow)
-        if (six := _three_numbers(part, None, bounded)) is not None
-    ]
+    scaled = [row._replace(x=row.x / X, u=row.u / U, a=row.a / A) for row in rows]
+    fits: list[ForceOfRows] = []
+    for force in _trials(scaled, bounded):
+        fits.append(force)
+        if _explained(scaled, force) == len(scaled):
+            break
     if not fits:
-        return nan
-    best = min(fits, key=lambda six: median(_misses(data, six, bounded)))
+        return lost
+    best = min(fits, key=lambda force: _loss(scaled, force))
     for _ in range(3):
-        kept = _without_outliers(data, best, bounded)
+        kept = _without_outliers(scaled, best)
         best = _three_numbers(kept, best, bounded) or best
-    return best.G * A / (U * X) ** 2, best.H * A / X**2, best.D * X
+    G, H, D = best.G * A / (U * X) ** 2, best.H * A / X**2, best.D * X
+    return ForceOfRows(G, H, D, _errors_admitted(_without_outliers(scaled, best), best), bounded)
 
 
-def _three_numbers(data: Sequence[Row], start: Six | None, bounded: bool) -> Six | None:
-    """G, H and D of scaled rows (x, u², a) by Gauss-Newton; None if they do not tell."""
-    guess = start[:3] if start is not None else _linear(data)
-    if guess is None:
+def _trials(rows: Sequence[ForceRow], bounded: bool) -> Iterator[ForceOfRows]:
+    """The forces of all rows, and of parts of them without a wrong one."""
+    thirds = [rows[i::3] for i in range(3)] if len(rows) >= 12 else []
+    # Where most rows are beyond the radius, only the first ones tell the sphere.
+    shallow = [rows[: len(rows) // n] for n in (2, 4, 8, 16) if len(rows) // n >= 8]
+    for part in (rows, *thirds, *shallow):
+        if (force := _three_numbers(part, _linear(part), bounded)) is not None:
+            yield force
+    if bounded:
+        yield from _mostly_beyond(rows)
+
+
+def _loss(rows: Sequence[ForceRow], force: ForceOfRows) -> float:
+    """How badly a force fits: a row that is far off counts little more than one that is off."""
+    return math.fsum(math.log1p(miss * miss) for miss in _misses(rows, force))
+
+
+def _mostly_beyond(rows: Sequence[ForceRow]) -> Iterator[ForceOfRows]:
+    """Forces by which all rows but the first few are beyond the depth D/2.
+
+    There a = p u² + q with p = G D²/4 and q = H D²/4. With y = 2 x/D, a row before that has
+    a / (p u² + q) = 2 y - y².
+    """
+    for first in range(1, min(_FIRST_ROWS, len(rows) - 3)):
+        beyond = rows[first:]
+        matrix, right = [[0.0] * 2 for _ in range(2)], [0.0] * 2
+        for row in beyond:
+            terms, weight = (row.u * row.u, 1.0), (row.error * row.a) ** -2
+            for i in range(2):
+                right[i] += weight * terms[i] * row.a
+                for j in range(2):
+                    matrix[i][j] += weight * terms[i] * terms[j]
+        solved = _linear_solution(matrix, right)
+        if solved is None:
+            continue
+        p, q = solved
+        for row in rows[:first]:
+            share = row.a / (p * row.u * row.u + q) if p * row.u * row.u + q else 2.0
+            if 0 < share < 1:
+                D = 2 * row.x / (1 - math.sqrt(1 - share))
+                force = ForceOfRows(4 * p / D**2, 4 * q / D**2, D)
+                if (fitted := _three_numbers(rows, force, True)) is not None:
+                    yield fitted
+
+
+def _gradient(row: ForceRow, force: ForceOfRows) -> tuple[float, float, float]:
+    """The derivatives of the deceleration by G, H and D."""
+    inside = row.x < force.D / 2 or not force.bounded
+    area = force.D * row.x - row.x * row.x if inside else force.D**2 / 4
+    by_D = (force.G * row.u**2 + force.H) * (row.x if inside else force.D / 2)
+    return row.u**2 * area, area, by_D
+
+
+def _normal(rows: Sequence[ForceRow], force: ForceOfRows) -> tuple[list[list[float]], list[float]]:
+    """The normal equations of a change of G, H and D, each row with the weight of its digits."""
+    matrix, right = [[0.0] * 3 for _ in range(3)], [0.0] * 3
+    for row in rows:
+        gradient, rest = _gradient(row, force), row.a - force.at(row.x, row.u)
+        weight = (row.error * row.a) ** -2
+        for i in range(3):
+            right[i] += weight * gradient[i] * rest
+            for j in range(3):
+                matrix[i][j] += weight * gradient[i] * gradient[j]
+    for i in range(3):
+        matrix[i][i] *= 1 + _RIDGE
+    return matrix, right
+
+
+def _three_numbers(
+    rows: Sequence[ForceRow], start: ForceOfRows | None, bounded: bool
+) -> ForceOfRows | None:
+    """G, H and D of rows by Gauss-Newton from a start; None if they do not tell."""
+    if start is None:
         return None
-    G, H, D = guess
+    force = start._replace(bounded=bounded)
     for _ in range(40):
-        matrix = [[0.0] * 3 for _ in range(3)]
-        right = [0.0] * 3
-        for x, w, a in data:
-            inside = x < D / 2 or not bounded
-            area = D * x - x * x if inside else D * D / 4
-            gradient = (w * area, area, (G * w + H) * (x if inside else D / 2))
-            rest = a - (G * w + H) * area
-            weight = 1.0 / max(abs(a), 1e-6) ** 2
-            for i in range(3):
-                right[i] += weight * gradient[i] * rest
-                for j in range(3):
-                    matrix[i][j] += weight * gradient[i] * gradient[j]
-        change = _solved(matrix, right)
+        change = _linear_solution(*_normal(rows, force))
         if change is None:
             return None
-        G, H, D = G + change[0], H + change[1], D + change[2]
-        if not all(map(math.isfinite, (G, H, D))):
+        force = force._replace(G=force.G + change[0], H=force.H + change[1], D=force.D + change[2])
+        if not all(map(math.isfinite, force[:3])):
             return None
-        if max(abs(d) for d in change) < 1e-15 * max(abs(G), abs(H), abs(D)):
+        if max(map(abs, change)) < 1e-15 * max(map(abs, force[:3])):
             break
-    return Six(G, H, D, 1.0, 1.0, 1.0)
+    return force
 
 
-def _misses(data: Sequence[Row], six: Six, bounded: bool) -> list[float]:
-    """The relative deviation of each row from a fit."""
-    return [
-        abs(six.deceleration(x, math.sqrt(max(w, 0.0)), bounded) - a) / max(abs(a), 1e-6)
-        for x, w, a in data
-    ]  # fmt: skip
+def _errors_admitted(rows: Sequence[ForceRow], force: ForceOfRows) -> tuple[float, float, float]:
+    """The relative errors of G, H and D that the digits of the rows admit, to first order.
+
+    Digits are cut by anything up to half of the last one, not by chance: so errors add up as they
+    are.
+    """
+    matrix, _ = _normal(rows, force)
+    columns = [_linear_solution(matrix, [float(i == j) for i in range(3)]) for j in range(3)]
+    if any(column is None for column in columns):
+        return (math.inf, math.inf, math.inf)
+    errors = []
+    for column, number in zip(columns, force[:3], strict=True):
+        error = math.fsum(
+            abs(math.fsum(c * g for c, g in zip(column or (), _gradient(row, force), strict=True)))
+            / (row.error * abs(row.a))
+            for row in rows
+        )
+        errors.append(max(EXACT, error / abs(number)) if number else math.inf)
+    return (errors[0], errors[1], errors[2])
 
 
-def _without_outliers(data: list[Row], six: Six, bounded: bool) -> list[Row]:
-    """The rows whose deviation from a fit is not far above the usual one."""
-    off = _misses(data, six, bounded)
-    most = 20 * median(off) + 1e-13
-    kept = [row for row, deviation in zip(data, off, strict=True) if deviation <= most]
-    return kept if len(kept) >= max(4, 0.7 * len(data)) else data
+def _without_outliers(rows: list[ForceRow], force: ForceOfRows) -> list[ForceRow]:
+    """The rows whose deviation from a force is not far above the usual one, and their digits."""
+    off = _misses(rows, force)
+    most = max(_FAR, 20 * median(off))
+    kept = [row for row, deviation in zip(rows, off, strict=True) if deviation <= most]
+    return kept if len(kept) >= max(4, 0.7 * len(rows)) else rows
 
 
-def _linear(data: Sequence[Row]) -> tuple[float, float, float] | None:
+def _linear(rows: Sequence[ForceRow]) -> ForceOfRows | None:
     """A first guess: a / x is linear in w = u², w x, 1 and x."""
     matrix = [[0.0] * 4 for _ in range(4)]
     right = [0.0] * 4
-    for x, w, a in data:
-        terms = (w, w * x, 1.0, x)
+    for row in rows:
+        w = row.u * row.u
+        terms = (w, w * row.x, 1.0, row.x)
         for i in range(4):
-            right[i] += terms[i] * a / x if x else 0.0
+            right[i] += terms[i] * row.a / row.x
             for j in range(4):
-                matrix[i][j] += terms[i] * terms[j] if x else 0.0
-    solved = _solved(matrix, right)
+                matrix[i][j] += terms[i] * terms[j]
+    solved = _linear_solution(matrix, right)
     if solved is None:
         return None
     GD, G, HD, H = solved[0], -solved[1], solved[2], -solved[3]
     guesses = [a / b for a, b in ((GD, G), (HD, H)) if a > 0 and b > 0]
     D = guesses[-1] if guesses else 2.0
-    return GD / D, HD / D, D
+    return ForceOfRows(GD / D, HD / D, D)
 
 
-def _solved(matrix: list[list[float]], right: list[float]) -> list[float] | None:
+def _linear_solution(matrix: list[list[float]], right: list[float]) -> list[float] | None:
     """The solution of a few linear equations by elimination; None if they are singular."""
     size = len(right)
     rows = [[*row, value] for row, value in zip(matrix, right, strict=True)]

@@ -9,11 +9,11 @@ from reference.units import written
 from replication import page
 from replication.check.delimited import column_at, where
 from replication.check.difference import counted
-from replication.check.examination import NO_FAULT, Difference, Examination
+from replication.check.examination import NO_FAULT, Departure, Examination
 from replication.check.shown import NO_LIMIT, anchor, drawn, fitted, safe, whereabouts, wrapped
-from replication.check.table import Line, Table, address
-from replication.check.words import COLUMNS, INPUTS, is_unit, unit_text
-from replication.check.workbook import Check
+from replication.check.table import Line, SchemeTable, cell_name
+from replication.check.words import COLUMNS, INPUTS, is_unit, unit_name
+from replication.check.workbook import Checked
 from replication.text import columns, quantity, with_unit
 from spreadsheets.evaluate import Evaluator
 from spreadsheets.foreign import Book, Position
@@ -26,24 +26,24 @@ Record = Mapping[str, Any]
 # ---- for a program
 
 
-def check_record(check: Check) -> dict[str, Any]:
+def check_record(check: Checked) -> dict[str, Any]:
     """The document of `coldspray check --json`; a number beyond doubles is null."""
     exams, first, book = check.examinations, check.first, check.evaluator.book
     return {
         "file": str(book.path),
-        "verdict": _verdict(check),
+        "verdict": _check_verdict(check),
         "clean": first is None,
         "summary": dict(Counter(d.kind for d in check.differences)),
         "first": first and _entry(first, book),
         "differences": [_entry(d, book) for d in check.differences],
         "taken": [_taken(exam) for exam in exams],
-        "final_depths": [_finite(_depth(exam)) for exam in exams],
+        "final_depths": [_finite(_final_depths(exam)) for exam in exams],
         "claims": [
             {
                 "id": number.claim.id, "title": number.claim.title,
                 "place": str(number.claim.place), "printed": number.claim.shown,
                 "unit": number.claim.unit, "interval": str(number.claim.interval()),
-                "cell": address(number.place, True), "found": number.found, "met": number.met,
+                "cell": cell_name(number.place, True), "found": number.found, "met": number.met,
                 **({"where": where(book, number.place)} if book.is_text else {}),
             }
             for number in check.numbers
@@ -52,7 +52,7 @@ def check_record(check: Check) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _entry(difference: Difference, book: Book) -> Record:
+def _entry(difference: Departure, book: Book) -> Record:
     """The entry of a difference; of a text file it has the line and the column, too, by `where`."""
     entry = _finite(difference.record())
     return {**entry, "where": where(book, difference.place)} if book.is_text else entry
@@ -64,7 +64,7 @@ def _finite(record: Record) -> Record:
     return {k: None if v in infinite or v != v else v for k, v in record.items()}
 
 
-def _verdict(check: Check) -> str:
+def _check_verdict(check: Checked) -> str:
     """The result in one sentence."""
     causes, faults, exams = check.causes, check.faults, check.examinations
     if not faults:
@@ -93,7 +93,7 @@ def _verdict(check: Check) -> str:
     for exam in exams:
         if (depths := _wrong_depth(exam)) is not None:
             reached, right = (f"{depth * 1e6:.7g} um" for depth in depths)
-            table = _of_table(exam.table.sheet, exam.table.area("depth"), len(exams))
+            table = _which_table(exam.table.sheet, exam.table.area("depth"), len(exams))
             return f"{sentence}; the final depth{table} is {reached}, and should be {right}."
     if all(exam.right_depth and exam.final_depth and exam.ends for exam in exams):
         tables = "the table ends" if len(exams) == 1 else "every table ends"
@@ -115,14 +115,14 @@ def _wrong_depth(exam: Examination) -> tuple[float, float] | None:
     return None if abs(reached - right) <= close else (reached, right)
 
 
-def _depth(exam: Examination) -> Record:
+def _final_depths(exam: Examination) -> Record:
     """The final depth, and what it should be. An excerpt has no final depth."""
     return {"sheet": exam.table.sheet, "cells": exam.table.area("depth"),
             "found": exam.final_depth if exam.ends else None,
             "expected": exam.right_depth}  # fmt: skip
 
 
-def _of_table(sheet: str, cells: str, tables: int) -> str:
+def _which_table(sheet: str, cells: str, tables: int) -> str:
     """Say which table a final depth is of, if there are several."""
     return f" of {safe(sheet, 40)}!{cells}" if tables > 1 else ""
 
@@ -137,13 +137,13 @@ def _taken(exam: Examination) -> Record:
         "scheme": exam.scheme,
         "columns": {
             role: {"cells": table.area(role), "head": line.head, **_lines_of(table, line),
-                   "unit": _unit(role, exam.units.get(role, 0.0)),
+                   "unit": _shown_unit(role, exam.units.get(role, 0.0)),
                    "by": "--map" if line.given else "head" if role in line.roles else "values"}
             for role in COLUMNS if (line := table.lines.get(role)) is not None
         },
         "inputs": {
             role: {"value": entry.si, "unit": INPUTS[role],
-                   "cell": address(entry.place, True) if entry.place else None,
+                   "cell": cell_name(entry.place, True) if entry.place else None,
                    "label": entry.label or None, "by": entry.how,
                    **_line_of(table.evaluator.book, entry.place)}
             for role in INPUTS
@@ -157,7 +157,7 @@ def _line_of(book: Book, cell: Position | None) -> dict[str, str]:
     return {"where": where(book, cell)} if book.is_text and cell is not None else {}
 
 
-def _lines_of(table: Table, line: Line) -> dict[str, str]:
+def _lines_of(table: SchemeTable, line: Line) -> dict[str, str]:
     """Where a column of a text file stands: the lines and the column."""
     book = table.evaluator.book
     if not book.is_text:
@@ -167,24 +167,24 @@ def _lines_of(table: Table, line: Line) -> dict[str, str]:
     return {"where": f"{column_at(book, line.number)}, {stretch}"}
 
 
-def _unit(role: str, power: float) -> str:
+def _shown_unit(role: str, power: float) -> str:
     """The unit of a column by its decimal logarithm."""
     if abs(power - round(power)) < 1e-9:
-        return unit_text(role, round(power))
+        return unit_name(role, round(power))
     return f"{10.0**power:.6g} {COLUMNS[role]}"
 
 
 # ---- for a person at a terminal
 
 
-def contents(difference: Record) -> str:
+def fault_contents(difference: Record) -> str:
     """Say what a cell holds and should hold.
 
-    >>> contents({"kind": "printed number", "expected": "7.67 um", "found": 7.68e-06})
+    >>> fault_contents({"kind": "printed number", "expected": "7.67 um", "found": 7.68e-06})
     'holds 7.68e-06, the report prints 7.67 um'
-    >>> contents({"kind": "unit", "expected": "m", "found": "mm"})
+    >>> fault_contents({"kind": "unit", "expected": "m", "found": "mm"})
     'stated in mm, is in m'
-    >>> contents({"kind": "odd formula", "expected": 500.0, "found": None})
+    >>> fault_contents({"kind": "odd formula", "expected": 500.0, "found": None})
     'is blank, should hold 500.0'
     """
     values = difference["expected"], difference["found"]
@@ -201,31 +201,33 @@ def contents(difference: Record) -> str:
     return f"holds {found}, should {'read' if reads else 'hold'} {expected}"
 
 
-def text(record: Record, width: int = NO_LIMIT) -> str:
+def check_text(record: Record, width: int = NO_LIMIT) -> str:
     """The result for a terminal of this width, the most important first."""
-    return fitted(_lines(record, width), width)
+    return fitted(_check_lines(record, width), width)
 
 
-def _lines(record: Record, width: int) -> Iterator[str]:
+def _check_lines(record: Record, width: int) -> Iterator[str]:
     yield from (record["verdict"], safe(record["file"], 200))
     first, differences = record["first"], record["differences"]
     if first:
-        yield from ("", "First in order of calculation", *_difference(first))
+        yield from ("", "First in order of calculation", *_told_difference(first))
     aside = {"other input": "Other inputs than the report's, which are no fault",
              "not calculated": "Not covered"}  # fmt: skip
     apart = {*aside, "printed number"}  # these kinds have a paragraph of their own
     rest = [d for d in differences if d != first and d["kind"] not in apart]
-    yield from _list("Then", [line for d in rest[:_MOST] for line in _difference(d)], len(rest))
+    yield from _paragraph(
+        "Then", [line for d in rest[:_MOST] for line in _told_difference(d)], len(rest)
+    )
     for kind, title in aside.items():
         of_kind = [d for d in differences if d["kind"] == kind]
         lines = [
             wrapped(f"{whereabouts(d)}: " * (d["count"] == 1) + safe(d["explanation"], 300), "  ")
             for d in of_kind[:_MOST]
         ]
-        yield from _list(title, lines, len(of_kind))
-    tables = [line for taken in record["taken"] for line in _table(taken, width)]
-    yield from _list("What was taken for what", tables)
-    yield from _list("Notes", [f"  {safe(note, 200)}" for note in record["notes"]])
+        yield from _paragraph(title, lines, len(of_kind))
+    tables = [line for taken in record["taken"] for line in _taken_lines(taken, width)]
+    yield from _paragraph("What was taken for what", tables)
+    yield from _paragraph("Notes", [f"  {safe(note, 200)}" for note in record["notes"]])
     claims = record["claims"]
     unmet = [claim for claim in claims if not claim["met"]]
     shown = unmet or [c for c in claims if c["id"].startswith(("depth-", "ratio-"))]
@@ -243,10 +245,10 @@ def _lines(record: Record, width: int) -> Iterator[str]:
         met = f"{len(claims)}, {len(claims) - len(unmet)} as printed"
         yield from ("", f"Of the report's printed numbers it holds {met}")
         yield columns(rows, width)
-    yield from _list("", [], len(shown))
+    yield from _paragraph("", [], len(shown))
 
 
-def _table(taken: Record, width: int) -> Iterator[str]:
+def _taken_lines(taken: Record, width: int) -> Iterator[str]:
     """What was taken for what in a table, as lines."""
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
@@ -283,14 +285,14 @@ def _known_by(how: str, label: str) -> str:
     return _KNOWN_BY.get(how) or f"{how} {safe(label, 40)!r}"
 
 
-def _difference(difference: Record) -> Iterator[str]:
+def _told_difference(difference: Record) -> Iterator[str]:
     yield f"  {whereabouts(difference)}, {difference['kind']}"
-    if line := contents(difference):
+    if line := fault_contents(difference):
         yield f"    {line}"
     yield wrapped(safe(difference["explanation"], 400), "    ")
 
 
-def _list(title: str, lines: Sequence[str], total: int = 0) -> Iterator[str]:
+def _paragraph(title: str, lines: Sequence[str], total: int = 0) -> Iterator[str]:
     """A paragraph of lines under a title, if any; `total` counts the entries that there are."""
     if lines:
         yield from ("", title, *lines)
@@ -301,7 +303,7 @@ def _list(title: str, lines: Sequence[str], total: int = 0) -> Iterator[str]:
 # ---- for a browser
 
 
-def html(record: Record, differences: Sequence[Difference], evaluator: Evaluator) -> str:
+def check_page(record: Record, differences: Sequence[Departure], evaluator: Evaluator) -> str:
     """The page of a record, without scripts and with nothing loaded from outside.
 
     `differences` are those of the record, with their cells in the workbook that is drawn.
@@ -320,10 +322,10 @@ def html(record: Record, differences: Sequence[Difference], evaluator: Evaluator
             for k, entries in groupby(numbered, key=lambda entry: _list_of(entry[1]))
         ],
         "sheets": [
-            _drawn(name, sheets, differences, evaluator) for name in sheets if name in marked
+            _drawn_sheet(name, sheets, differences, evaluator) for name in sheets if name in marked
         ],
     }
-    filters = {"safe": safe, "contents": contents, "unit": written, "quantity": quantity,
+    filters = {"safe": safe, "contents": fault_contents, "unit": written, "quantity": quantity,
                "known_by": _known_by}  # fmt: skip
     return page.from_template("replication.check", "page.html.j2", parts, filters)
 
@@ -342,8 +344,8 @@ def _list_of(difference: Record) -> int:
     return 2 if kind in NO_FAULT else int(kind == "printed number")
 
 
-def _drawn(
-    name: str, sheets: Sequence[str], differences: Sequence[Difference], evaluator: Evaluator
+def _drawn_sheet(
+    name: str, sheets: Sequence[str], differences: Sequence[Departure], evaluator: Evaluator
 ) -> Record:
     """A sheet with its differences marked, with the values that were calculated."""
     values, book = evaluator.values, evaluator.book

@@ -55,7 +55,7 @@ def wrapped(line: str, indent: str) -> str:
     return fill(line, 100, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)
 
 
-def _place(difference: Record) -> str:
+def _shown_place(difference: Record) -> str:
     """The cell of a difference, or in a text file its line and column."""
     if "where" in difference:
         return safe(difference["where"])
@@ -68,7 +68,7 @@ def whereabouts(difference: Record) -> str:
     if difference["count"] > 1:
         in_text = "where" in difference
         more = f" and {difference['count'] - 1} more" if in_text else f" ({difference['cells']})"
-    return _place(difference) + more
+    return _shown_place(difference) + more
 
 
 # ---- for a browser
@@ -144,7 +144,7 @@ def junit(record: Record, kinds: Sequence[str], no_fault: Collection[str] = ()) 
     for kind in kinds:
         case = ET.SubElement(suite, "testcase", classname="coldspray", name=kind)
         lines = [
-            f"{_place(d)}: {safe(d['explanation'], 300)}"
+            f"{_shown_place(d)}: {safe(d['explanation'], 300)}"
             for d in record["differences"]
             if d["kind"] == kind
         ]

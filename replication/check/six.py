@@ -11,7 +11,7 @@ import math
 from statistics import median
 from typing import NamedTuple
 
-from replication.check.table import Table
+from replication.check.table import SchemeTable
 from spreadsheets.foreign import Position
 
 EXACT = 1e-9
@@ -110,6 +110,10 @@ class Six(NamedTuple):
         return (self.G * u * u + self.H) * area
 
 
+ROUNDED = Six(EXACT, EXACT, EXACT, EXACT, EXACT, EXACT)
+"""The relative errors of six numbers that formulas give."""
+
+
 class Step(NamedTuple):
     """One row of a run."""
 
@@ -119,7 +123,9 @@ class Step(NamedTuple):
     velocity_final: float
 
 
-def run(six: Six, stop: float, *, centered: bool = False, most: int = _MOST_ROWS) -> list[Step]:
+def run_scheme(
+    six: Six, stop: float, *, centered: bool = False, most: int = _MOST_ROWS
+) -> list[Step]:
     """The rows of the report's scheme for six numbers, to the first velocity below `stop`."""
     rows: list[Step] = []
     x, v = 0.0, six.V
@@ -136,21 +142,21 @@ def run(six: Six, stop: float, *, centered: bool = False, most: int = _MOST_ROWS
     return rows
 
 
-def start_of_row(table: Table) -> State:
+def start_of_row(table: SchemeTable) -> State:
     """The velocity at the start of a row."""
     if "velocity_initial" in table.lines:
         return "velocity_initial", 0
     return "velocity_final", -1
 
 
-def end_of_row(table: Table) -> State:
+def end_of_row(table: SchemeTable) -> State:
     """The velocity at the end of a row."""
     if "velocity_final" in table.lines:
         return "velocity_final", 0
     return "velocity_initial", 1
 
 
-def first_speed(table: Table) -> Position | None:
+def first_speed(table: SchemeTable) -> Position | None:
     """The cell of the velocity at the impact that rows start from."""
     for role, k in (("velocity_initial", 1), ("velocity_final", 0), ("velocity_initial", 0)):
         if table.number(role, k) is not None:
@@ -158,7 +164,7 @@ def first_speed(table: Table) -> Position | None:
     return None
 
 
-def origin(table: Table, place: Position) -> Position:
+def first_written(table: SchemeTable, place: Position) -> Position:
     """The cell in which the first velocity is written, where another one only repeats it."""
     zero = table.number("velocity_initial", 0)
     if zero is None:
@@ -168,14 +174,14 @@ def origin(table: Table, place: Position) -> Position:
     return impact if repeated and table.evaluator.values.get(place) == zero else place
 
 
-def impact_velocity(table: Table) -> float:
+def impact_velocity(table: SchemeTable) -> float:
     """The velocity V at which the table starts; NaN if it shows none."""
     place = first_speed(table)
     value = table.evaluator.values.get(place) if place else None
     return value if type(value) is float else math.nan
 
 
-def time_step(table: Table) -> float | None:
+def time_step(table: SchemeTable) -> float | None:
     """By how much the time grows in most rows."""
     pairs = ((table.number("time", k), table.number("time", k - 1)) for k in table.rows)
     steps = [now - before for now, before in pairs if now is not None and before is not None]

@@ -34,14 +34,14 @@ def stale(evaluator: Evaluator) -> Iterator[Position]:
                 continue
         elif evaluator.book[place].error and isinstance(value, Error):
             continue
-        if type(stored) is not type(value) and _may_be(evaluator, place, stored):
+        if type(stored) is not type(value) and _may_be_stored(evaluator, place, stored):
             continue
         if _follows(evaluator, place, stored):
             continue
         yield place
 
 
-def _read(evaluator: Evaluator, place: Position) -> list[Position]:
+def _numbers_read(evaluator: Evaluator, place: Position) -> list[Position]:
     """The cells with numbers that a formula reads one by one."""
     cells: list[Position] = []
     for area in evaluator.areas(place):
@@ -73,7 +73,7 @@ def _varied(
     """What a formula gives when each number that it reads or holds changes in its last digits."""
     for sign in (-1, 1):
         factor = 1 + sign * 1.01 * _DIGITS
-        for cell in _read(evaluator, place):
+        for cell in _numbers_read(evaluator, place):
             base = given.get(cell, evaluator.values[cell])
             if type(base) is float:
                 yield evaluator.value(place, {**given, cell: base * factor})
@@ -81,7 +81,7 @@ def _varied(
             yield evaluator.value(place, given, {(*place, index): number * factor})
 
 
-def _may_be(evaluator: Evaluator, place: Position, stored: Scalar) -> bool:
+def _may_be_stored(evaluator: Evaluator, place: Position, stored: Scalar) -> bool:
     """Whether a stored value is what the formula gives with other last digits of what it reads."""
     for changed in _varied(evaluator, place, {}):
         if changed == stored:
@@ -96,7 +96,7 @@ def _may_be(evaluator: Evaluator, place: Position, stored: Scalar) -> bool:
 def _follows(evaluator: Evaluator, place: Position, stored: Scalar) -> bool:
     """Whether a stored value follows from the stored values of the cells that the formula reads."""
     given: dict[Position, Scalar] = {}
-    for cell in _read(evaluator, place):
+    for cell in _numbers_read(evaluator, place):
         if cell in evaluator.formulas:
             own = evaluator.book[cell].value
             if own is not None and own != evaluator.values.get(cell):

@@ -31,14 +31,16 @@ _HEADS = 5
 """How far above its numbers the head of a line may stand."""
 _EXACT = 1e-9
 """Relative difference up to which formulas follow a relation; they round to some 1e-15."""
+_ABOUT = 0.01
+"""The decimal logarithm of a ratio up to which two steps of typed numbers may be the same."""
 _LOOSE = 0.05
 """The same where no pair of lines follows one exactly, as in another scheme."""
 
 
-def address(place: Position, with_sheet: bool = False) -> str:
+def cell_name(place: Position, with_sheet: bool = False) -> str:
     """Return the address of a cell as a spreadsheet shows it.
 
-    >>> address(("Sheet1", 9, 4)), address(("my sheet", 9, 4), with_sheet=True)
+    >>> cell_name(("Sheet1", 9, 4)), cell_name(("my sheet", 9, 4), with_sheet=True)
     ('D9', "'my sheet'!D9")
     """
     sheet, row, column = place
@@ -211,7 +213,7 @@ class Line:
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
+class SchemeTable:
     """A table of the scheme: its lines by role, other lines beside them, and its rows.
 
     `rows` gives the index of each row by its number: row 0 is the impact, row 1 the first step.
@@ -386,7 +388,7 @@ def _is_constant(line: Line) -> bool:
     return sum(value == values[0] for value in values) > 0.8 * len(values)
 
 
-def _falls(speed: Line, other: Line | None, role: str) -> list[tuple[int, float, float]]:
+def _velocity_falls(speed: Line, other: Line | None, role: str) -> list[tuple[int, float, float]]:
     """How much the velocity falls in each row: the row's index, the fall and its rounding."""
     falls = []
     pairs = _pairs(speed)
@@ -406,9 +408,9 @@ def _falls(speed: Line, other: Line | None, role: str) -> list[tuple[int, float,
 # ---- tables
 
 
-def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[Table]:
+def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[SchemeTable]:
     """The tables of a workbook in the order of its sheets; `given` are lines that a user named."""
-    found: list[Table] = []
+    found: list[SchemeTable] = []
     every = lines(evaluator)
     if given.keys() & {"depth", "velocity", "velocity_initial", "velocity_final"}:
         line = next(iter(given.values()))
@@ -434,16 +436,19 @@ def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[Table]:
     return sorted(found, key=lambda t: (order[t.sheet], min(t.places)))
 
 
-def _by_heads(evaluator: Evaluator, known: Sequence[Line]) -> list[Table]:
+def _by_heads(evaluator: Evaluator, known: Sequence[Line]) -> list[SchemeTable]:
     """The table of lines whose heads name them, where values do not tell."""
     named = {role: o for o in reversed(known) for role in o.roles if len(o.roles) == 1}
-    if not {"depth", "velocity_initial"} <= named.keys() or not named["depth"].grows:
+    if not {"depth", "velocity_initial"} <= named.keys():
+        return []
+    depth, speed = named["depth"], named["velocity_initial"]
+    if not (depth.grows or _reads(depth, speed)):
         return []
     table = _given(evaluator, {r: o for r, o in named.items() if r != "other"}, [])
     return [table] if table else []
 
 
-def _shows(table: Table, other: Table) -> bool:
+def _shows(table: SchemeTable, other: SchemeTable) -> bool:
     """Whether a table only shows another one, cell by cell."""
     line = table.lines["depth"]
     if not line.computed:
@@ -455,14 +460,12 @@ def _shows(table: Table, other: Table) -> bool:
     return reads > len(some) / 2
 
 
-def _on_sheet(evaluator: Evaluator, known: Sequence[Line], close: float) -> list[Table]:
+def _on_sheet(evaluator: Evaluator, known: Sequence[Line], close: float) -> list[SchemeTable]:
     """The tables among some lines of a sheet, the best pairs of depth and velocity first."""
     pairs = list(_pairs_of(known, close))
     if any(not pair.depth.computed for pair in pairs):
-        pairs = [
-            pair._replace(score=pair.score + _support(pair.speed, pair.c, known)) for pair in pairs
-        ]
-    found: list[Table] = []
+        pairs = [pair._replace(score=pair.score + _support(pair, known)) for pair in pairs]
+    found: list[SchemeTable] = []
     used: set[Position] = set()
 
     def is_free(line: Line) -> bool:
@@ -505,25 +508,29 @@ def _pairs_of(known: Sequence[Line], close: float) -> Iterator[_Pair]:
                 continue
             for lag in (0, 1):
                 c, share = grows_by(depth, speed, lag, close)
-                if share > 0.5 and c > 0 and _may_be(depth, speed):
-                    yield _Pair(_score(depth, speed, lag, share), depth, speed, lag, c)
+                if share > 0.5 and c > 0 and _may_be_pair(depth, speed):
+                    yield _Pair(_pair_score(depth, speed, lag, share), depth, speed, lag, c)
 
 
-def _support(speed: Line, c: float, known: Sequence[Line]) -> float:
-    """How well other numbers support a velocity: one repeats it, or it falls by one times c."""
+def _support(pair: _Pair, known: Sequence[Line]) -> float:
+    """How well other numbers support a velocity: one repeats it, or it falls by one times c.
+
+    Of two depths, one of which is the other over the radius, c is the step for one of them only.
+    """
+    speed = pair.speed
     others = [line for line in known if line is not speed]
     repeated = any(repeats(speed, line) > 0.5 or repeats(line, speed) > 0.5 for line in others)
     falls: list[tuple[str, Line | None]] = [("velocity_initial", None), ("velocity_final", None)]
     falls += [("velocity_initial", line) for line in others if repeats(speed, line) > 0.5]
     falls += [("velocity_initial", speed) for line in others if repeats(line, speed) > 0.5]
     for role, end in falls:
-        brake = _brake(_falls(speed, end, role), others, c, speed, strict=True)
-        if brake is not None:
+        falls_by = _velocity_falls(speed, end, role)
+        if _brake_line(falls_by, others, pair.c, pair.depth, speed, strict=True) is not None:
             return 1.0 + repeated
     return float(repeated)
 
 
-def _may_be(depth: Line, speed: Line) -> bool:
+def _may_be_pair(depth: Line, speed: Line) -> bool:
     """Whether a pair of computed lines may be depth and velocity by what they read.
 
     The depth is computed from the velocity, or both only show a table that stands elsewhere.
@@ -533,7 +540,7 @@ def _may_be(depth: Line, speed: Line) -> bool:
     return _reads(depth, speed) or not _reads(depth, depth)
 
 
-def _beside(table: Table, other: Table) -> bool:
+def _beside(table: SchemeTable, other: SchemeTable) -> bool:
     """Whether a table consists of lines that only show those of another one beside it."""
     depth = table.lines["depth"]
     if not depth.computed or _reads(depth, depth):
@@ -578,7 +585,7 @@ def _typical(line: Line) -> int:
     return indices[len(indices) // 2] if indices else min(line.values)
 
 
-def _score(depth: Line, speed: Line, lag: int, share: float) -> float:
+def _pair_score(depth: Line, speed: Line, lag: int, share: float) -> float:
     """How well a pair fits: by its rows, by what reads what, and by its heads."""
     score = round(share, 1) + min(len(depth.values), 1000) / 1e4 - 0.1 * lag
     score += 2 * depth.grows + 2 * speed.positive
@@ -597,7 +604,7 @@ def _by_view(line: Line) -> bool:
 
 def _made(
     evaluator: Evaluator, depth: Line, speed: Line, lag: int, c: float, known: Sequence[Line]
-) -> Table | None:
+) -> SchemeTable | None:
     """The table of a depth and a velocity, with the lines that belong to it."""
     others = [o for o in known if o not in (depth, speed)]
     roles: dict[str, Line] = {"depth": depth}
@@ -636,7 +643,7 @@ def _is_ahead(speed: Line, depth: Line) -> bool:
 
 def _completed(
     evaluator: Evaluator, roles: dict[str, Line], known: Sequence[Line], c: float
-) -> Table | None:
+) -> SchemeTable | None:
     """The table with its deceleration, time and helpers, and its rows numbered."""
     depth = roles["depth"]
     start = roles.get("velocity_initial")
@@ -649,14 +656,14 @@ def _completed(
         if o not in taken and len(o.values.keys() & depth.values.keys()) >= len(depth.values) / 2
     ]  # fmt: skip
     if "deceleration" not in roles and (
-        brake := _brake(_falls(speed, both, role), others, c, both or speed)
+        brake := _brake_line(_velocity_falls(speed, both, role), others, c, depth, both or speed)
     ):
         roles["deceleration"] = brake
-    if "time" not in roles and (time := _time(others, c, depth.number, set(roles.values()))):
+    if "time" not in roles and (time := _time_line(others, c, depth.number, set(roles.values()))):
         roles["time"] = time
     shown = sorted(set(depth.values) | set(speed.values))
     first, last = min(depth.values), max(depth.values)
-    indices = _of_table([i for i in shown if first <= i <= last], depth, speed)
+    indices = _own_rows([i for i in shown if first <= i <= last], depth, speed)
     if len(indices) < LEAST:
         return None
     roles = {name: _within(line, indices) for name, line in roles.items()}
@@ -669,7 +676,7 @@ def _completed(
         return None
     numbers = {line.number for line in roles.values()}
     helpers = tuple(_within(o, indices) for o in others if o.number not in numbers)
-    return Table(evaluator, depth.sheet, depth.across, roles, helpers, rows, whole)
+    return SchemeTable(evaluator, depth.sheet, depth.across, roles, helpers, rows, whole)
 
 
 def _repeating(start: Line, end: Line) -> Line:
@@ -696,7 +703,7 @@ def _within(line: Line, indices: Sequence[int]) -> Line:
     )
 
 
-def _of_table(indices: list[int], depth: Line, speed: Line) -> list[int]:
+def _own_rows(indices: list[int], depth: Line, speed: Line) -> list[int]:
     """The rows of a table, without numbers that stand above or below it.
 
     The last row has a usual formula. Before the first usual formula of the depths at most two rows
@@ -740,16 +747,16 @@ def _first_row(
     return 0, False
 
 
-def _brake(
-    falls: Sequence[tuple[int, float, float]], others: Sequence[Line], c: float, speed: Line,
-    strict: bool = False,
+def _brake_line(
+    falls: Sequence[tuple[int, float, float]], others: Sequence[Line], c: float, depth: Line,
+    speed: Line, strict: bool = False,
 ) -> Line | None:  # fmt: skip
     """The line of decelerations: the velocity falls by it times the constant of the depth.
 
     Forces and changes of velocity fall with it, too, but by other constants; `strict` takes no
     line with another constant than a power of ten times `c`.
     """
-    ranked = []
+    ranked, of_depth = [], _error_of_growth(depth)
     for line in others:
         if _is_constant(line):
             continue
@@ -759,24 +766,41 @@ def _brake(
             for i, fall, rounding in falls
             if line.values.get(i)
         ]  # fmt: skip
-        e, share = _share(terms, _EXACT)
+        close = _EXACT
+        e, share = _share(terms, close)
         if share <= 0.5 or not e:
-            e, share = _share(terms, 1e-3) if not line.computed else (e, 0.0)
+            close = 1e-3
+            e, share = _share(terms, close) if not line.computed else (e, 0.0)
         if share <= 0.5:
             continue
-        fits = power_of_ten(abs(e) / c) is not None or (
-            not line.computed and abs(math.log10(abs(e) / c) - round(math.log10(abs(e) / c))) < 0.01
-        )
+        error = of_depth + median(tolerance / abs(fall) for fall, _, tolerance in terms if fall)
+        power = math.log10(abs(e) / c)
+        off = abs(power - round(power))
+        near = min(_ABOUT, math.log10(1 + 2 * error + close))
+        fits = power_of_ten(abs(e) / c) is not None or (not line.computed and off < near)
         named = "deceleration" in line.roles
         other = bool(line.roles) and not named
-        ranked.append((not fits, not named, other, not _reads(speed, line), line.number, line))
+        reads = _reads(speed, line)
+        rank = (not fits, not named, other, round(off, 3), not reads, line.number)
+        ranked.append((*rank, line))
     ranked.sort(key=lambda entry: entry[:-1])
     if strict:
         return ranked[0][-1] if ranked and not ranked[0][0] else None
     if not ranked or (ranked[0][0] and ranked[0][1]):
-        near = [entry for entry in ranked if not entry[2] and not entry[3]]
-        return near[0][-1] if near and ranked[0][0] and not _is_product(near[0][-1]) else None
+        likely = [entry for entry in ranked if not entry[2] and not entry[4]]
+        best = likely[0][-1] if likely and ranked[0][0] else None
+        return None if best is None or _is_product(best) else best
     return ranked[0][-1]
+
+
+def _error_of_growth(depth: Line) -> float:
+    """The usual relative error of what a depth grows by in a row, by the digits of its numbers."""
+    errors = []
+    for before, now in _pairs(depth):
+        x, last = depth.values[now], depth.values[before]
+        if x != last:
+            errors.append((depth.rounding(x) + depth.rounding(last)) / abs(x - last))
+    return median(errors) if errors else 0.0
 
 
 def _is_product(line: Line) -> bool:
@@ -785,7 +809,7 @@ def _is_product(line: Line) -> bool:
     return shape is not None and len(shape.references) <= 2 and len(shape.key) < 40
 
 
-def _time(others: Sequence[Line], c: float, near: int, taken: set[Line]) -> Line | None:
+def _time_line(others: Sequence[Line], c: float, near: int, taken: set[Line]) -> Line | None:
     """The line of times: it grows by the same constant, up to its unit."""
     ranked = []
     for line in others:
@@ -814,7 +838,9 @@ def _best(depths: Iterable[tuple[Line, float]]) -> Line | None:
     return max(ranked, key=lambda entry: entry[0])[1] if ranked else None
 
 
-def _given(evaluator: Evaluator, given: Mapping[str, Line], beside: Sequence[Line]) -> Table | None:
+def _given(
+    evaluator: Evaluator, given: Mapping[str, Line], beside: Sequence[Line]
+) -> SchemeTable | None:
     """The table of lines that the user named; the others are found as usual."""
     roles = {("velocity_initial" if r == "velocity" else r): o for r, o in given.items()}
     if "depth" not in roles:

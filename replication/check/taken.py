@@ -6,9 +6,10 @@ from functools import cache
 
 from reference.ledger import claims_of_case, load
 from replication.check.examination import AnotherModelError, Examination, near
+from replication.check.fit import TableFit
 from replication.check.roles import Input, Inputs
 from replication.check.six import Six, start_of_row
-from replication.check.words import INPUTS, digits_of, quantity, times_too, title
+from replication.check.words import INPUTS, digits_of, times_too, title, with_si_unit
 
 OTHER_STEP = 5e-10
 """The report's second time step [s]; the first one is among its printed inputs."""
@@ -16,6 +17,10 @@ _NO_BETA = 1e3
 """No beta is so large; a flow stress in Pa is larger."""
 _DIGITS = 3
 """A mass is typed with so many digits at least."""
+_SAME = 1e-6
+"""Relative difference up to which a number that was solved is one that was typed."""
+_FEW_DIGITS = 0.05
+"""Rows whose digits admit larger errors do not tell by themselves which case they belong to."""
 _ALIKE = 3
 """So many other inputs must be the report's where one is called a thousand times too large."""
 
@@ -49,9 +54,15 @@ def report_six(resistance: float, step: float) -> Six:
     return Six(G, H, report["diameter"][0], step, step, report["velocity"][0])
 
 
-def case_of(six: Six | None, close: float) -> str | None:
-    """The report's case that six numbers in SI units belong to, whatever the step; None if none."""
+def report_case(six: Six | None, fitted: TableFit) -> str | None:
+    """The report's case that six numbers in SI units belong to, whatever the step; None if none.
+
+    They may differ by what the digits of the rows admit; what these do not tell is no case.
+    """
     if six is None:
+        return None
+    close = max(_SAME, *fitted.errors)
+    if close > _FEW_DIGITS:
         return None
     for beta, resistance in zip((5, 3), report_inputs()["resistance"], strict=True):
         wanted = report_six(resistance, six.c)._replace(e=six.e)
@@ -68,7 +79,7 @@ def take_inputs(exam: Examination, inputs: Inputs) -> None:
             continue
         label, unit = inputs.label(source)
         how = "formulas" if source.cell is None else inputs.how.get(role, "response")
-        value = _si(source.value, inputs.powers.get(source.item, 0.0))
+        value = _in_si(source.value, inputs.powers.get(source.item, 0.0))
         exam.inputs[role] = Input(role, value, source.cell, how, label, unit, source.value)
     six = six_in_si(exam)
     for role, value in (("step", six.c), ("velocity", six.V), ("radius", six.D / 2)):
@@ -88,7 +99,7 @@ def take_inputs(exam: Examination, inputs: Inputs) -> None:
     _solve_rest(exam, six)
 
 
-def _si(value: float, power: float) -> float:
+def _in_si(value: float, power: float) -> float:
     """A number in SI units, rounded once where the unit is a power of ten."""
     if power == round(power) and math.isfinite(value):
         return float(Fraction(repr(value)) * Fraction(10) ** round(power))
@@ -115,9 +126,9 @@ def six_in_si(exam: Examination) -> Six:
 def _as_in_report(exam: Examination, six: Six) -> None:
     """Take the report's inputs for those that no cell holds, if the rows agree with one case."""
     report, inputs = report_inputs(), exam.inputs
-    close = max(1e-6, 30 * exam.fitted.slack)
-    if (case := case_of(six, close)) is None:
+    if (case := report_case(six, exam.fitted)) is None:
         return
+    close = max(_SAME, exam.fitted.errors.c)
     resistance = report["resistance"][0 if case == "beta-5" else 1]
     values = {role: report[role][0] for role in (
         "velocity", "radius", "particle_density", "target_density")}  # fmt: skip
@@ -151,8 +162,10 @@ def _solve_rest(exam: Examination, six: Six) -> None:
     else:
         density, target = (report_inputs()[role][0] for role in (
             "particle_density", "target_density"))  # fmt: skip
-        close = max(1e-6, 10 * exam.fitted.slack)
-        if not math.isclose(2 * six.G * volume * density / math.pi, target, rel_tol=close):
+        errors = exam.fitted.errors
+        close = max(_SAME, errors.G + 3 * errors.D)
+        own = 2 * six.G * volume * density / math.pi
+        if close > _FEW_DIGITS or not math.isclose(own, target, rel_tol=close):
             return
         M = volume * density
     solved = {
@@ -169,7 +182,7 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
     It is one if all others are the report's, and this one is it but for a power of ten.
     """
     report = report_inputs()
-    _swapped(exam)
+    _swapped_labels(exam)
     typed = [
         role for role, entry in exam.inputs.items()
         if entry.place and role in report and role != "stop_velocity"
@@ -183,19 +196,18 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         if entry.place in accused:
             continue
         known = (*report[role], OTHER_STEP) if role == "step" else report[role]
-        off = next(filter(None, (_power_off(entry, value) for value in known)), 0)
+        off = next(filter(None, (_input_power_off(entry, value) for value in known)), 0)
         is_slip = off % 3 == 0 or off % 2 == 0  # a unit ten times another one is unusual
         alone = len(others) == 1 and len(typed) - 1 >= _ALIKE
         weak = role == "flow_stress" and entry.si < _NO_BETA and len(typed) - len(others) >= _ALIKE
         if off and is_slip and (alone or weak):
-            text = (
-                f"the formulas take {title(role)} as {quantity(entry.si, role)}, {times_too(off)}"
-            )
+            taken = with_si_unit(entry.si, role)
+            text = f"the formulas take {title(role)} as {taken}, {times_too(off)}"
             exam.add("unit", [entry.place], entry.value / 10.0**off, text)
             exam.corrected = (role, entry.si / 10.0**off)
             continue
-        shown = " or ".join(quantity(value, role) for value in report[role])
-        text = f"{title(role)} is {quantity(entry.si, role)}, in the report {shown}"
+        shown = " or ".join(with_si_unit(value, role) for value in report[role])
+        text = f"{title(role)} is {with_si_unit(entry.si, role)}, in the report {shown}"
         exam.add("other input", [entry.place], None, text)
 
 
@@ -206,7 +218,7 @@ _PARTS = {
 """The inputs from which formulas compute others."""
 
 
-def _swapped(exam: Examination) -> None:
+def _swapped_labels(exam: Examination) -> None:
     """Report labels of beta and flow stress that name each other's number.
 
     A beta, a ratio of stresses, is no thousand, and no flow stress is below a thousand Pa.
@@ -225,7 +237,7 @@ def _of_numbers(exam: Examination, role: str) -> bool:
     return all(part.place is None for part in parts)
 
 
-def _power_off(entry: Input, value: float) -> int:
+def _input_power_off(entry: Input, value: float) -> int:
     """By which power of ten an input is not a value of the report; 0 if it is another number.
 
     A mass, which the report does not print, may be typed with few digits.

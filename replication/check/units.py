@@ -8,58 +8,80 @@ a unit is to blame; the one statement is sought that mends all.
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 
 from reference.units import same_dimension, to_si
-from replication.check.fit import Fit
-from replication.check.responses import CLOSE, Item, Source, unit_power
+from replication.check.fit import TableFit
+from replication.check.responses import Influence, Item, unit_power
 from replication.check.roles import Inputs
-from replication.check.six import start_of_row
-from replication.check.table import Table
+from replication.check.six import VARIANTS, start_of_row
+from replication.check.table import SchemeTable
 from replication.check.words import COLUMNS, INPUTS
 
+_ALIKE = 1e-9
+"""The decimal logarithm of a ratio up to which what formulas give is equal."""
+_VAGUE = math.log10(1.01)
+"""Of numbers without formulas: inputs that are typed beside them may have few digits."""
+_TOLD = 0.3
+"""A number of which the digits admit a larger part to be wrong is not told at all."""
 _MOST_CHANGES = 6
 """So many units that nobody states may have to be found together."""
 
 
 @dataclass(frozen=True)
-class Quantity:
-    """A positive number times powers of units that may be unknown: the number's logarithm."""
+class Magnitude:
+    """A positive number times powers of units that may be unknown: the number's logarithm.
+
+    `error` is how far that may be off by the digits of what it follows from.
+    """
 
     log: float
     units: Mapping[Item, float] = field(default_factory=dict)
+    error: float = 0.0
 
-    def __mul__(self, other: "Quantity") -> "Quantity":
+    def __mul__(self, other: "Magnitude") -> "Magnitude":
         items = self.units.keys() | other.units.keys()
         powers = {i: self.units.get(i, 0.0) + other.units.get(i, 0.0) for i in items}
-        return Quantity(self.log + other.log, {i: n for i, n in powers.items() if n})
+        error = self.error + other.error
+        return Magnitude(self.log + other.log, {i: n for i, n in powers.items() if n}, error)
 
-    def __pow__(self, power: float) -> "Quantity":
-        return Quantity(self.log * power, {i: n * power for i, n in self.units.items()})
+    def __pow__(self, power: float) -> "Magnitude":
+        powers = {i: n * power for i, n in self.units.items()}
+        return Magnitude(self.log * power, powers, self.error * abs(power))
 
-    def __truediv__(self, other: "Quantity") -> "Quantity":
+    def __truediv__(self, other: "Magnitude") -> "Magnitude":
         return self * other**-1
 
 
-def _number(value: float | None) -> Quantity:
-    """A number without a unit; its logarithm is NaN if it has none."""
-    return Quantity(math.log10(value) if value is not None and 0 < value < math.inf else math.nan)
+def _pure_number(value: float | None, error: float = 0.0) -> Magnitude:
+    """A number without a unit and its relative error; its logarithm is NaN if it has none.
+
+    A number that may be wrong by a good part of itself is not told.
+    """
+    told = value is not None and 0 < value < math.inf and error < _TOLD
+    log = math.log10(value) if told and value is not None else math.nan
+    return Magnitude(log, error=math.log10(1 + error) if told else math.inf)
 
 
-def _unit(item: Item) -> Quantity:
-    return Quantity(0.0, {item: 1.0})
+def _unit_of(item: Item) -> Magnitude:
+    return Magnitude(0.0, {item: 1.0})
 
 
-def _of(source: Source) -> Quantity:
+def _of_source(source: Influence) -> Magnitude:
     """The quantity in a cell, or typed into a formula."""
-    return _number(source.value) * _unit(source.item)
+    return _pure_number(source.value) * _unit_of(source.item)
 
 
 @dataclass(frozen=True)
-class Equation:
-    """Two sides that should be equal: the one over the other, with the units that it contains."""
+class Balance:
+    """Two sides that should be equal: the one over the other, with the units that it contains.
+
+    `slack` is how far the logarithm of their ratio may be from 0, or from a power of ten.
+    """
 
     name: str
-    ratio: Quantity
+    ratio: Magnitude
+    slack: float
 
     @property
     def terms(self) -> Mapping[Item, float]:
@@ -70,35 +92,47 @@ class Equation:
         """The logarithm of the ratio, which is 0 if the equation holds; `powers` are the units'."""
         return self.ratio.log + sum(n * powers.get(i, 0.0) for i, n in self.terms.items())
 
+    def holds(self, powers: Mapping[Item, float]) -> bool:
+        """Whether both sides are equal, as far as their digits tell."""
+        return abs(self.residual(powers)) < self.slack
 
-def equations(table: Table, fitted: Fit, inputs: Inputs) -> list[Equation]:
+
+def equations(table: SchemeTable, fitted: TableFit, inputs: Inputs) -> list[Balance]:
     """The equations between the six numbers and the cells that can be written down."""
-    six = fitted.six
+    six, errors = fitted.six, fitted.errors
     X, W, A, T = (
-        _unit(("column", role))
+        _unit_of(("column", role))
         for role in ("depth", start_of_row(table)[0], "deceleration", "time")
     )
     if "deceleration" not in table.lines:
         A = W**2 / X
-    c, e, t = _number(six.c) * X / W, _number(abs(six.e)) * W / A, _number(fitted.time) * T
+    by_time = fitted.ways.get("depth") is VARIANTS["velocity times time"]
+    step = math.nan if by_time else six.c  # then the depth grows by no step
+    c, e = _pure_number(step, errors.c) * X / W, _pure_number(abs(six.e), errors.e) * W / A
+    t = _pure_number(fitted.time, fitted.time_error) * T
     sides = {"c = e": (c, e)} if "deceleration" in table.lines else {}
     if {"velocity_initial", "velocity_final"} <= table.lines.keys():
-        ends = (_unit(("column", role)) for role in ("velocity_initial", "velocity_final"))
+        ends = (_unit_of(("column", role)) for role in ("velocity_initial", "velocity_final"))
         sides["v = v"] = (next(ends), next(ends))
     sides |= _of_step(table, inputs, c, e, t)
     velocity = inputs.cells.get("velocity")
     if velocity is not None and velocity.powers:
-        sides["V"] = (_number(six.V) * W, _of(velocity))
-    G, H = _number(six.G) * A / (W * X) ** 2, _number(six.H) * A / X**2
-    sides |= _of_force(inputs, _number(six.D) * X, G, H)
-    found = [Equation(name, left / right) for name, (left, right) in sides.items()]
-    return [eq for eq in found if math.isfinite(eq.ratio.log)]
+        sides["V"] = (_pure_number(six.V, errors.V) * W, _of_source(velocity))
+    G = _pure_number(six.G, errors.G) * A / (W * X) ** 2
+    H = _pure_number(six.H, errors.H) * A / X**2
+    sides |= _of_force(inputs, _pure_number(six.D, errors.D) * X, G, H)
+    least = _ALIKE if fitted.probe is not None else _VAGUE
+    ratios = {name: left / right for name, (left, right) in sides.items()}
+    found = [Balance(name, ratio, max(least, ratio.error)) for name, ratio in ratios.items()]
+    return [eq for eq in found if math.isfinite(eq.ratio.log + eq.slack)]
 
 
-_Sides = dict[str, tuple[Quantity, Quantity]]
+_Sides = dict[str, tuple[Magnitude, Magnitude]]
 
 
-def _of_step(table: Table, inputs: Inputs, c: Quantity, e: Quantity, t: Quantity) -> _Sides:
+def _of_step(
+    table: SchemeTable, inputs: Inputs, c: Magnitude, e: Magnitude, t: Magnitude
+) -> _Sides:
     """The equations of the time step; a cell that a column does not respond to is left out."""
     step = inputs.cells.get("step") or inputs.derived.get("step")
     if step is None or (inputs.how.get("step") == "unread" and step.powers):
@@ -107,62 +141,62 @@ def _of_step(table: Table, inputs: Inputs, c: Quantity, e: Quantity, t: Quantity
     if "deceleration" not in table.lines:
         del sides["e = dt"]
     by_cell = {
-        name: (side, _of(step))
+        name: (side, _of_source(step))
         for name, (symbol, side) in sides.items()
         if abs(step.powers.get(symbol, 1.0) - 1) < 0.02
     }
     return by_cell if "t = dt" in by_cell else {**by_cell, "t = c": (t, c)}
 
 
-def _of_force(inputs: Inputs, D: Quantity, G: Quantity, H: Quantity) -> _Sides:
+def _of_force(inputs: Inputs, D: Magnitude, G: Magnitude, H: Magnitude) -> _Sides:
     """The equations of the sphere and its mass, then those of the target."""
     cells, derived, sides = inputs.cells, inputs.derived, _Sides()
-    R = _of(cells["radius"]) if "radius" in cells else None
+    R = _of_source(cells["radius"]) if "radius" in cells else None
     diameter = cells.get("diameter") or derived.get("diameter")
     if diameter is not None:
-        sides["D"] = (D, _of(diameter))
+        sides["D"] = (D, _of_source(diameter))
         if R is not None:
-            sides["diameter"] = (_of(diameter), _number(2.0) * R)
+            sides["diameter"] = (_of_source(diameter), _pure_number(2.0) * R)
     if R is None and diameter is not None and "radius" in derived:
-        sides["radius"] = (_of(derived["radius"]), _of(diameter) / _number(2.0))
-        sides["D"] = (D, _number(2.0) * _of(derived["radius"]))
-        R = _of(derived["radius"])
+        sides["radius"] = (_of_source(derived["radius"]), _of_source(diameter) / _pure_number(2.0))
+        sides["D"] = (D, _pure_number(2.0) * _of_source(derived["radius"]))
+        R = _of_source(derived["radius"])
     elif R is not None and "diameter" not in sides:
-        sides["D"] = (D, _number(2.0) * R)
-    R = R or (_of(diameter) if diameter is not None else D) / _number(2.0)
+        sides["D"] = (D, _pure_number(2.0) * R)
+    R = R or (_of_source(diameter) if diameter is not None else D) / _pure_number(2.0)
     M, mass = None, cells.get("mass") or derived.get("mass")
     if "particle_density" in cells:
-        M = _number(4 / 3 * math.pi) * R**3 * _of(cells["particle_density"])
+        M = _pure_number(4 / 3 * math.pi) * R**3 * _of_source(cells["particle_density"])
     if mass is not None:
         if M is not None:
-            sides["mass"] = (_of(mass), M)
-        M = _of(mass)
+            sides["mass"] = (_of_source(mass), M)
+        M = _of_source(mass)
     return sides | _of_target(inputs, G, H, M)
 
 
-def _of_target(inputs: Inputs, G: Quantity, H: Quantity, M: Quantity | None) -> _Sides:
+def _of_target(inputs: Inputs, G: Magnitude, H: Magnitude, M: Magnitude | None) -> _Sides:
     """The equations of the target's density and its resistance; M is the mass, if it is known."""
     cells, derived, sides = inputs.cells, inputs.derived, _Sides()
     target = cells.get("target_density") or derived.get("target_density")
     if target is not None and M is not None:
-        sides["G"] = (_number(2 / math.pi) * G * M, _of(target))
+        sides["G"] = (_pure_number(2 / math.pi) * G * M, _of_source(target))
     strength, resistance = None, derived.get("resistance") or cells.get("resistance")
     beta = cells.get("beta") or derived.get("beta")
     stress = cells.get("flow_stress") or derived.get("flow_stress")
     if beta is not None and stress is not None:
-        strength = _number(beta.value) * _of(stress)
+        strength = _pure_number(beta.value) * _of_source(stress)
         if resistance is not None:
-            sides["resistance"] = (_of(resistance), strength)
-    strength = _of(resistance) if resistance is not None else strength
+            sides["resistance"] = (_of_source(resistance), strength)
+    strength = _of_source(resistance) if resistance is not None else strength
     if strength is not None and M is not None:
-        sides["H"] = (H * M / _number(math.pi), strength)
+        sides["H"] = (H * M / _pure_number(math.pi), strength)
     return sides
 
 
 # ---- the units by which they hold
 
 
-def state_units(table: Table, inputs: Inputs) -> None:
+def state_units(table: SchemeTable, inputs: Inputs) -> None:
     """Take the units that heads and labels state, if they measure the right quantity."""
     for role, line in table.lines.items():
         if line.unit and line.unit != "1" and same_dimension(line.unit, COLUMNS[role]):
@@ -176,8 +210,8 @@ def state_units(table: Table, inputs: Inputs) -> None:
             inputs.stated.pop(source.item, None)
 
 
-def mended(
-    found: Sequence[Equation], inputs: Inputs, slack: float
+def right_units(
+    found: Sequence[Balance], inputs: Inputs
 ) -> tuple[dict[Item, float], list[Item]] | None:
     """Units by which all equations hold, and the stated ones that had to be changed.
 
@@ -187,12 +221,12 @@ def mended(
     items = list(dict.fromkeys(item for eq in found for item in eq.terms))
     texts = {item for item in items if item in inputs.stated and item in inputs.powers}
     free = [item for item in items if item not in inputs.stated]
-    if (result := _solve(found, inputs.powers, free, slack)) is not None:
+    if (result := _least_changes(found, inputs.powers, free)) is not None:
         return result, []
     mends: list[tuple[bool, bool, int, Item, dict[Item, float]]] = []
     for item in items:
         if item in texts:
-            changed = _solve(found, inputs.powers, [*free, item], slack)
+            changed = _least_changes(found, inputs.powers, [*free, item])
             if changed is not None:
                 power = round(changed.get(item, 0.0) - inputs.powers.get(item, 0.0))
                 # What is not stated surely is changed first; units mostly lie a thousand apart. A
@@ -205,38 +239,44 @@ def mended(
     return changed, [] if same else [item]
 
 
-def _solve(
-    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], slack: float
+def _least_changes(
+    found: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item]
 ) -> dict[Item, float] | None:
     """Change as few free units as possible, by powers of ten, so that all equations hold."""
-    left, later = _set_apart(found, powers, free, slack)
+    left, later = _set_apart(found, powers, free)
     for most in range(_MOST_CHANGES):
-        result = _changed(left, dict(powers), list(free), most, slack)
+        result = _changed(left, powers, free, most)
         if result is not None:
-            holds = all(_mend_own(eq, own, result, slack) for eq, own in reversed(later))
+            holds = all(_mend_own(eq, own, result) for eq, own in reversed(later))
             if holds:
                 return result
             break
     for most in range(_MOST_CHANGES):  # the units set apart do not fit: all equations at once
-        if (result := _changed(found, dict(powers), list(free), most, slack)) is not None:
+        if (result := _changed(found, powers, free, most)) is not None:
             return result
     return None
 
 
-_Own = list[tuple[Equation, list[Item]]]
+_Own = list[tuple[Balance, list[Item]]]
 
 
 def _set_apart(
-    found: Sequence[Equation], powers: Mapping[Item, float], free: Sequence[Item], slack: float
-) -> tuple[list[Equation], _Own]:
-    """Set equations apart that have a free unit of their own: at the end it makes them hold."""
+    found: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item]
+) -> tuple[list[Balance], _Own]:
+    """Set equations apart that have a free unit of their own: at the end it makes them hold.
+
+    One that stands there squared or cubed does not: its powers of ten are even, or threes.
+    """
     left, later = list(found), _Own()
-    while any(abs(eq.residual(powers)) >= slack for eq in left):
+    while any(not eq.holds(powers) for eq in left):
         counts: dict[Item, int] = {}
         for eq in left:
             for item in eq.terms:
                 counts[item] = counts.get(item, 0) + 1
-        alone = ((eq, [i for i in eq.terms if i in free and counts[i] == 1]) for eq in left)
+        alone = (
+            (eq, [i for i, n in eq.terms.items() if i in free and counts[i] == 1 and abs(n) == 1])
+            for eq in left
+        )
         entry = next(((eq, own) for eq, own in alone if own), None)
         if entry is None:
             break
@@ -245,13 +285,13 @@ def _set_apart(
     return left, later
 
 
-def _mend_own(eq: Equation, own: Sequence[Item], result: dict[Item, float], slack: float) -> bool:
+def _mend_own(eq: Balance, own: Sequence[Item], result: dict[Item, float]) -> bool:
     """Make an equation hold by one of its own units; whether that is possible."""
-    rest = eq.residual(result)
-    if abs(rest) < slack:
+    if eq.holds(result):
         return True
+    rest = eq.residual(result)
     for item in own:
-        power = unit_power(-rest / eq.terms[item], slack)
+        power = unit_power(-rest / eq.terms[item], eq.slack, eq.ratio.error)
         if power is not None:
             result[item] = result.get(item, 0.0) + power
             return True
@@ -259,20 +299,35 @@ def _mend_own(eq: Equation, own: Sequence[Item], result: dict[Item, float], slac
 
 
 def _changed(
-    left: Sequence[Equation], powers: dict[Item, float], free: list[Item], most: int, slack: float
+    left: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item], most: int
 ) -> dict[Item, float] | None:
-    """Change up to `most` free units, so that the equations hold; None if that cannot be done."""
-    wrong = [eq for eq in left if abs(eq.residual(powers)) >= slack]
-    if not wrong or not most:
-        return None if wrong else powers
-    # An equation with a single free unit leaves no choice, so that it comes first.
-    broken = min(wrong, key=lambda eq: sum(item in eq.terms for item in free))
-    rest = broken.residual(powers)
-    for item in free:
-        power = -rest / broken.terms[item] if item in broken.terms else 0.0
-        if round(power) and abs(power - round(power)) <= slack + 2 * CLOSE:
-            changed = {**powers, item: powers.get(item, 0.0) + round(power)}
-            others = [i for i in free if i != item]
-            if (result := _changed(left, changed, others, most - 1, slack)) is not None:
-                return result
+    """Change so many free units, so that the equations hold; None if that cannot be done."""
+    broken = [eq for eq in left if not eq.holds(powers)]
+    items = [item for item in free if any(item in eq.terms for eq in left)]
+    for some in combinations(items, most):
+        if all(any(item in eq.terms for item in some) for eq in broken):
+            changes = _whole_powers(left, powers, some)
+            changed = {**powers, **{i: powers.get(i, 0.0) + n for i, n in changes.items()}}
+            if len(changes) == most and all(eq.holds(changed) for eq in left):
+                return changed
     return None
+
+
+def _whole_powers(
+    left: Sequence[Balance], powers: Mapping[Item, float], some: Sequence[Item]
+) -> dict[Item, float]:
+    """The powers of ten of some units by which linear equations hold; empty if they do not tell."""
+    rows = [
+        [*(eq.terms.get(item, 0.0) for item in some), float(-round(eq.residual(powers)))]
+        for eq in left
+        if any(item in eq.terms for item in some)
+    ]
+    for i in range(len(some)):
+        pivot = max(range(i, len(rows)), key=lambda r: abs(rows[r][i]), default=-1)
+        if pivot < 0 or abs(rows[pivot][i]) < 1e-9:
+            return {}
+        rows[i], rows[pivot] = rows[pivot], rows[i]
+        for r, row in enumerate(rows):
+            factor = row[i] / rows[i][i] if r != i else 0.0
+            rows[r] = [a - factor * b for a, b in zip(row, rows[i], strict=True)]
+    return {item: float(round(rows[i][-1] / rows[i][i])) for i, item in enumerate(some)}

@@ -33,7 +33,7 @@ _MAX_LABEL = 80
 
 
 @cache
-def _plain(text: str) -> str:
+def _plain_text(text: str) -> str:
     """Return a text in small letters and plain digits, without marks, double blanks or "(SI)"."""
     text = unicodedata.normalize("NFKC", text[:_MAX_LABEL]).casefold().replace("−", "-")
     bare = re.sub(r"\s+", " ", re.sub(r"[=:;^]+|\*\*", "", text)).strip()
@@ -87,7 +87,7 @@ def _symbol(text: str) -> str:
     >>> _symbol("v1 / (m/s)"), _symbol("Time"), _symbol("Rₜ [Pa]"), _symbol("x/m")
     ('v1', 'time', 'rt', 'x')
     """
-    plain = _plain(text)
+    plain = _plain_text(text)
     if unit_in(text) is None:
         return plain
     bare = re.sub(r"\s*(?:[\[(][^\[\]()]*[\])]|\bin \S+|,? \S+)$", "", plain).rstrip(" /")
@@ -96,10 +96,10 @@ def _symbol(text: str) -> str:
 
 def _symbols(table: str, text: str) -> list[str]:
     """Return the names of the entries of a table whose symbol is the whole text."""
-    return _words(table, _symbol(text), re.fullmatch)
+    return _entries_in(table, _symbol(text), re.fullmatch)
 
 
-def _words(table: str, text: str, fits: Callable[[str, str], object] = re.search) -> list[str]:
+def _entries_in(table: str, text: str, fits: Callable[[str, str], object] = re.search) -> list[str]:
     """Return the names of the entries of a table whose words stand in a text."""
     return [name for name, pattern in _WORDS[table].items() if fits(pattern, text)]
 
@@ -113,7 +113,7 @@ def column_roles(head: str) -> frozenset[str]:
     >>> sorted(column_roles("v")), sorted(column_roles("A(x)")), sorted(column_roles("foo"))
     (['velocity_final', 'velocity_initial'], ['other'], [])
     """
-    named = _symbols("column_symbols", head) or _words("column_words", _plain(head))
+    named = _symbols("column_symbols", head) or _entries_in("column_words", _plain_text(head))
     role, unit = next(iter(named), None), unit_in(head)
     if role is None or (
         role != "other" and unit and not same_dimension(unit, COLUMNS.get(role, "m/s"))
@@ -124,7 +124,7 @@ def column_roles(head: str) -> frozenset[str]:
         return frozenset(() if known else {"other"})
     if role != "velocity":
         return frozenset({role})
-    ends = _words("velocities", _symbol(head))
+    ends = _entries_in("velocities", _symbol(head))
     return frozenset(
         f"velocity_{end}" for end in (ends if len(ends) == 1 else _WORDS["velocities"])
     )
@@ -142,7 +142,7 @@ def input_roles(label: str, unit: str | None) -> frozenset[str]:
     unit = unit or unit_in(label)
     roles = _symbols("input_symbols", label)
     if not roles:
-        groups = set(_words("groups", _plain(label)))
+        groups = set(_entries_in("groups", _plain_text(label)))
         needs = {role: said.partition(" not ") for role, said in _WORDS["input_words"].items()}
         roles = [
             role
@@ -155,21 +155,21 @@ def input_roles(label: str, unit: str | None) -> frozenset[str]:
 
 
 @cache
-def result_of(label: str) -> str | None:
+def result_named(label: str) -> str | None:
     """Return "depth" if a label names the final depth, "ratio" for that over the radius, or None.
 
     "any depth" is a depth that is not said to be the final one.
 
-    >>> result_of("Endtiefe [µm]"), result_of("X/R"), result_of("Depth [m]"), result_of("radius")
-    ('depth', 'ratio', 'any depth', None)
-    >>> result_of("X (beta 3), um"), result_of("x [m]"), result_of("Final depth / D")
+    >>> [result_named(label) for label in ("Endtiefe [µm]", "X/R", "Depth [m]", "radius")]
+    ['depth', 'ratio', 'any depth', None]
+    >>> result_named("X (beta 3), um"), result_named("x [m]"), result_named("Final depth / D")
     ('any depth', None, None)
     """
     beta = rf"[\[(,]?\s*{_BETA}{_NUMBER}[\])]?"
     bare = re.sub(beta, "", label[:_MAX_LABEL], flags=re.IGNORECASE)
-    plain = re.sub(_BETWEEN_WORDS, " ", re.sub(_QUANTITY, "", _plain(bare)))
+    plain = re.sub(_BETWEEN_WORDS, " ", re.sub(_QUANTITY, "", _plain_text(bare)))
     spoken = re.findall(r"[^\W\d]\w*|\d[\d.]*|[^\s\w.,:()\[\]]", plain)
-    words = [_words("results", word, re.fullmatch) for word in spoken]
+    words = [_entries_in("results", word, re.fullmatch) for word in spoken]
     units = [same_dimension(is_unit(word) or "1", "m") for word in spoken]
     said = {name for names in words for name in names}
     if all(map(any, zip(words, units, strict=True))):
@@ -228,19 +228,19 @@ def title(role: str) -> str:
     return _WORDS["titles"].get(role) or f"the {role.replace('_', ' ')}"
 
 
-def quantity(value: float, role: str) -> str:
+def with_si_unit(value: float, role: str) -> str:
     """Return a value in SI units as text, with its unit.
 
-    >>> quantity(11e-6, "radius"), quantity(5.0, "beta")
+    >>> with_si_unit(11e-6, "radius"), with_si_unit(5.0, "beta")
     ('1.1e-05 m', '5')
     """
     return with_unit(f"{value:.10g}", _MEASURES[role])
 
 
-def unit_text(role: str, power: int) -> str:
+def unit_name(role: str, power: int) -> str:
     """Return the unit of a column or input that is a power of ten of the SI unit.
 
-    >>> unit_text("depth", -6), unit_text("depth", 0), unit_text("radius", 5)
+    >>> unit_name("depth", -6), unit_name("depth", 0), unit_name("radius", 5)
     ('um', 'm', '1e5 m')
     """
     unit = _MEASURES[role]

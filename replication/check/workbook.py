@@ -8,13 +8,15 @@ from pathlib import Path
 from reference.units import same_dimension
 from replication.check.delimited import read_any
 from replication.check.difference import counted
-from replication.check.examination import NO_FAULT, AnotherModelError, Difference, Examination
+from replication.check.examination import NO_FAULT, AnotherModelError, Departure, Examination
+from replication.check.idle import idle_inputs, numbers_apart, typed_beside, unused_formulas
 from replication.check.judge import examine
 from replication.check.labels import cell_names, label_of
-from replication.check.repair import Slipped, Still, mended, moving, slipped, standing
+from replication.check.repair import Slipped, Still, moving, slipped, still_cells, with_dollars
 from replication.check.results import PrintedCell, judge_results, printed_cells
+from replication.check.rows import fit_table
 from replication.check.stale import stale
-from replication.check.table import LEAST, Line, Table, address, runs, tables
+from replication.check.table import LEAST, Line, SchemeTable, cell_name, runs, tables
 from replication.check.words import (
     COLUMNS,
     INPUTS,
@@ -25,7 +27,7 @@ from replication.check.words import (
 )
 from replication.reading import advice, quoted
 from replication.reading import place as named
-from spreadsheets.evaluate import Evaluator, Shape, parse, shape_key
+from spreadsheets.evaluate import Evaluator, Shape, parse_formula, shape_key
 from spreadsheets.foreign import Book, Position, without_zeros
 from spreadsheets.scalars import Area, Error
 
@@ -38,7 +40,7 @@ _MOST_BLANK = 3
 
 
 @dataclass(frozen=True)
-class Check:
+class Checked:
     """The result of `coldspray check` for a workbook.
 
     `others` says for each table of another model beside those of the report's why it is one.
@@ -46,27 +48,27 @@ class Check:
 
     evaluator: Evaluator
     examinations: tuple[Examination, ...]
-    differences: tuple[Difference, ...]
+    differences: tuple[Departure, ...]
     numbers: tuple[PrintedCell, ...]
     others: tuple[str, ...] = ()
 
     @property
-    def faults(self) -> list[Difference]:
+    def faults(self) -> list[Departure]:
         """The differences that make the workbook depart from the report's sheet."""
         return [d for d in self.differences if d.kind not in NO_FAULT]
 
     @property
-    def causes(self) -> list[Difference]:
+    def causes(self) -> list[Departure]:
         """The faults apart from printed numbers that are not met, which follow from others."""
         return [d for d in self.faults if d.kind != "printed number"]
 
     @property
-    def first(self) -> Difference | None:
+    def first(self) -> Departure | None:
         """The first fault in order of calculation."""
         return min(self.causes or self.faults, key=lambda d: d.rank, default=None)
 
 
-def check(path: Path, given: Mapping[str, str] | None = None) -> Check:
+def check_workbook(path: Path, given: Mapping[str, str] | None = None) -> Checked:
     """Check somebody's workbook of the scheme.
 
     `given` has the ranges of columns and inputs that cannot be recognized, by name. Raises
@@ -78,13 +80,13 @@ def check(path: Path, given: Mapping[str, str] | None = None) -> Check:
         return check_book(book, given or {})
 
 
-def check_book(book: Book, given: Mapping[str, str]) -> Check:
+def check_book(book: Book, given: Mapping[str, str]) -> Checked:
     """Check a book that was read; see `check`."""
-    evaluator, texts = _evaluated(book)
+    evaluator, texts = _with_texts_as_numbers(book)
     lost = list(slipped(evaluator))
     if lost:
-        book = mended(evaluator.book, lost)
-        evaluator, texts = _evaluated(_without_values(book))
+        book = with_dollars(evaluator.book, lost)
+        evaluator, texts = _with_texts_as_numbers(_without_values(book))
     columns, cells = _mapped(given, evaluator)
     found = tables(evaluator, columns)[:_MOST_TABLES]
     still = None
@@ -93,20 +95,16 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
     if not found:
         raise ValueError(_nothing(evaluator))
     names = cell_names(evaluator)
-    idle = _idle(evaluator, found)
+    fits = [fit_table(table) for table in found]
+    found = [table for table, _ in fits]
+    idle = numbers_apart(evaluator, fits)
     exams: list[Examination] = []
     others: list[str] = []
-    for table in found:
+    for table, fitted in fits:
+        own = idle_inputs(idle, table, names)
+        typed = typed_beside(idle, table) + unused_formulas(idle, table)
         try:
-            exams.append(
-                examine(
-                    table,
-                    names,
-                    cells,
-                    _beside(table, idle, found),
-                    _typed_numbers(table, found) + _unused(table, idle),
-                )
-            )
+            exams.append(examine(table, fitted, names, cells, own, typed))
         except AnotherModelError as error:
             others.append(str(error))
     if not exams:
@@ -121,11 +119,11 @@ def check_book(book: Book, given: Mapping[str, str]) -> Check:
 
 def _set_moving(
     evaluator: Evaluator, texts: dict[Position, str]
-) -> tuple[Evaluator, dict[Position, str], list[Table], Still | None]:
+) -> tuple[Evaluator, dict[Position, str], list[SchemeTable], Still | None]:
     """The workbook with a cell filled without which no row moves, its tables, and the cell."""
-    for still in standing(evaluator):
+    for still in still_cells(evaluator):
         book = _without_values(moving(evaluator.book, still))
-        trial, again = _evaluated(book)
+        trial, again = _with_texts_as_numbers(book)
         if (found := tables(trial, {})[:_MOST_TABLES]) and any(
             still.place in table.places for table in found
         ):
@@ -143,7 +141,7 @@ def _tell_still(exams: Sequence[Examination], still: Still) -> None:
             text = f"{what}: no row moves; checked as if {still.formula} stood here"
             cells, rank = (still.place,), exam.rank(still.place)
             exam.ends = False  # its depths are those that were meant
-            exam.differences.append(Difference(kind, cells, still.formula, still.found, text, rank))
+            exam.differences.append(Departure(kind, cells, still.formula, still.found, text, rank))
             return
 
 
@@ -168,7 +166,7 @@ def _tell_lost(exams: Sequence[Examination], slip: Slipped) -> None:
         for line in exam.table.helpers:
             lined |= {line.place(i) for i in line.values}
         if slip.cells[0] in lined or slip.cells[-1] in lined:
-            meant = address(slip.meant, slip.meant[0] != slip.cells[0][0])
+            meant = cell_name(slip.meant, slip.meant[0] != slip.cells[0][0])
             text = f"the reference to {meant} lacks its $: it slips away from that cell, row by row"
             expected = slip.formulas[slip.cells[0]]
             exam.add("odd formula", slip.cells, expected, text)
@@ -179,10 +177,10 @@ def _tell_lost(exams: Sequence[Examination], slip: Slipped) -> None:
 def _collected(
     evaluator: Evaluator, exams: Sequence[Examination], texts: Mapping[Position, str],
     others: Sequence[str],
-) -> Check:  # fmt: skip
+) -> Checked:  # fmt: skip
     numbers = {(n.claim.id, n.place): n for n in printed_cells(exams, evaluator)}.values()
     beside = [
-        *_texts(evaluator, exams, texts),
+        *_told_texts(evaluator, exams, texts),
         *_stale(evaluator, exams),
         *(
             n.unmet(exams[0])
@@ -194,12 +192,12 @@ def _collected(
     ]
     # Tables may share the cell of an input or a result: only the first of them reports it.
     reported: set[tuple[Position, str]] = set()
-    once: list[Difference] = []
+    once: list[Departure] = []
     for group in (*(exam.differences for exam in exams), beside):
         once += [d for d in group if (d.place, d.kind) not in reported]
         reported.update((d.place, d.kind) for d in group)
     ordered = tuple(sorted(once, key=lambda d: d.rank))
-    return Check(evaluator, tuple(exams), ordered, tuple(numbers), tuple(others))
+    return Checked(evaluator, tuple(exams), ordered, tuple(numbers), tuple(others))
 
 
 def _faulty(exams: Sequence[Examination], place: Position) -> bool:
@@ -213,7 +211,7 @@ def _faulty(exams: Sequence[Examination], place: Position) -> bool:
 # ---- evaluation, and numbers stored as texts
 
 
-def _evaluated(book: Book) -> tuple[Evaluator, dict[Position, str]]:
+def _with_texts_as_numbers(book: Book) -> tuple[Evaluator, dict[Position, str]]:
     """The book evaluated, with the typed texts that formulas take for numbers."""
     evaluator = Evaluator(without_zeros(book))
     read = {
@@ -264,74 +262,16 @@ def _numbers_in(text: str) -> list[float]:
     return [float(each) for each in candidates if number.fullmatch(each)]
 
 
-def _texts(
+def _told_texts(
     evaluator: Evaluator, exams: Sequence[Examination], texts: Mapping[Position, str]
-) -> Iterator[Difference]:
+) -> Iterator[Departure]:
     """Report numbers that are stored as texts in cells that the tables read."""
     read = set().union(*(exam.read for exam in exams), *(exam.table.places for exam in exams))
     for place, text in sorted(texts.items()):
         if place in read or any(e.place == place for exam in exams for e in exam.inputs.values()):
             says = "a number stored as text: not every program calculates with it"
             value = evaluator.values.get(place)
-            yield Difference(
-                "typed number", (place,), value, repr(text), says, exams[0].rank(place)
-            )
-
-
-# ---- what the tables do not read
-
-
-def _idle(evaluator: Evaluator, found: Sequence[Table]) -> list[Position]:
-    """The numbers that no table holds or reads: of inputs that are not used, perhaps."""
-    lined = {p for table in found for p in table.places}
-    for table in found:
-        lined |= {line.place(i) for line in table.helpers for i in line.values}
-    read: set[Position] = set()
-    waiting = [p for p in lined if p in evaluator.formulas]
-    seen: set[Position] = set()
-    while waiting:
-        place = waiting.pop()
-        if place in seen:
-            continue
-        seen.add(place)
-        for area in evaluator.areas(place):
-            for cell in area.places() if area.cells <= 64 else ():
-                read.add(cell)
-                if cell in evaluator.formulas and cell not in lined:
-                    waiting.append(cell)
-    return [
-        place
-        for place, value in evaluator.values.items()
-        if type(value) is float and place not in lined and place not in read
-    ][:5_000]
-
-
-def _beside(table: Table, idle: Sequence[Position], found: Sequence[Table]) -> list[Position]:
-    """The idle cells that may belong to a table: typed ones, not on the sheet of another table."""
-    formulas = table.evaluator.formulas
-    own = [p for p in idle if p not in formulas]
-    if len(found) > 1:
-        others = {other.sheet for other in found} - {table.sheet}
-        own = [p for p in own if p[0] not in others]
-    return own[:500]
-
-
-def _unused(table: Table, idle: Sequence[Position]) -> list[Position]:
-    """The formulas on the sheet of a table that no table reads: of a mass, say."""
-    return [p for p in idle if p in table.evaluator.formulas and p[0] == table.sheet][:100]
-
-
-def _typed_numbers(table: Table, found: Sequence[Table]) -> list[Position]:
-    """The typed numbers on the sheet of a table that stand in no table."""
-    lined = {p for other in found for p in other.places}
-    for other in found:
-        lined |= {line.place(i) for line in other.helpers for i in line.values}
-    evaluator = table.evaluator
-    return [
-        p for p, value in evaluator.values.items()
-        if type(value) is float and p[0] == table.sheet and p not in lined
-        and p not in evaluator.formulas
-    ][:500]  # fmt: skip
+            yield Departure("typed number", (place,), value, repr(text), says, exams[0].rank(place))
 
 
 # ---- the user's --map, and the message where no table is found
@@ -352,7 +292,7 @@ def _mapped(
             cells[name] = (area.sheet, area.top, area.left)
             if type(evaluator.values.get(cells[name])) is not float:
                 raise ValueError(
-                    f"--map {name}: the cell {address(cells[name], True)} holds no number"
+                    f"--map {name}: the cell {cell_name(cells[name], True)} holds no number"
                 )
         elif name in _LINES and (area.top == area.bottom or area.left == area.right):
             columns[name] = _named_line(name, where, area, evaluator)
@@ -389,7 +329,7 @@ def _area(name: str, where: str, evaluator: Evaluator) -> Area:
         raise ValueError(f"--map {name[:40]!r} is not a known name; {meant}")
     areas: list[Area] = []
     for sheet in book.sheets:
-        shape = parse(f"={where}", sheet, book, shape_key(f"={where}", 1, 1))
+        shape = parse_formula(f"={where}", sheet, book, shape_key(f"={where}", 1, 1))
         if len(shape.references) == 1 and not shape.literals:
             area = shape.references[0]._replace(crossing=False).at(1, 1)
             if area not in areas:
@@ -421,13 +361,13 @@ def _nothing(evaluator: Evaluator) -> str:
     first = min(wrong, key=lambda p: evaluator.order.get(p, 0), default=None)
     instead = sorted(_labelled_texts(evaluator) | _spoiling(evaluator, first))
     for place in instead:
-        nothing += f"; {address(place, True)} holds the text {str(values[place])[:40]!r}"
+        nothing += f"; {cell_name(place, True)} holds the text {str(values[place])[:40]!r}"
     for place in _labelled_blanks(evaluator):
-        nothing += f"; {address(place, True)} is blank, though formulas read it"
+        nothing += f"; {cell_name(place, True)} is blank, though formulas read it"
     for place in sorted(evaluator.unknown)[:1]:
-        nothing += f"; {address(place, True)} is not computed: {evaluator.reasons[place]}"
+        nothing += f"; {cell_name(place, True)} is not computed: {evaluator.reasons[place]}"
     if first:
-        errors = f"errors in {counted(len(wrong), 'formula')}, {address(first, True)} first"
+        errors = f"errors in {counted(len(wrong), 'formula')}, {cell_name(first, True)} first"
         return f"{nothing}; {errors}: {values[first]}"
     if instead:
         return f"{nothing}: type a number there"
@@ -498,12 +438,12 @@ def _labelled_blanks(evaluator: Evaluator) -> list[Position]:
     return blank[:_MOST_BLANK]
 
 
-def _without_numbers(evaluator: Evaluator) -> Iterator[Difference]:
+def _without_numbers(evaluator: Evaluator) -> Iterator[Departure]:
     """Report each sheet where the formulas below the head of a depth give no numbers.
 
     Report, too, the texts in cells of inputs, one of which such formulas may read.
     """
-    silent: dict[str, Difference] = {}
+    silent: dict[str, Departure] = {}
     for (sheet, row, column), text in evaluator.values.items():
         if type(text) is str and not is_unit(text) and column_roles(text) == {"depth"}:
             below = [(sheet, row + k, column) for k in range(1, 3 * LEAST)]
@@ -516,21 +456,21 @@ def _without_numbers(evaluator: Evaluator) -> Iterator[Difference]:
                     kind, says = "odd formula", f"below {quoted(text)} formulas give {value}"
                 says += ": no table is found there"
                 found = str(value) if isinstance(value, Error) else None
-                silent.setdefault(sheet, Difference(kind, (cells[0],), None, found, says, (8.0,)))
+                silent.setdefault(sheet, Departure(kind, (cells[0],), None, found, says, (8.0,)))
     for place in (
         sorted(_labelled_texts(evaluator) | _texts_for_numbers(evaluator)) if silent else ()
     ):
         says = "it is a text, not a number: nothing that reads it can be checked"
         shown = repr(evaluator.values[place])
         # It comes before all faults of what reads it.
-        yield Difference("typed number", (place,), None, shown, says, (-1.0,))
+        yield Departure("typed number", (place,), None, shown, says, (-1.0,))
     yield from silent.values()
 
 
 # ---- stored values
 
 
-def _stale(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Difference]:
+def _stale(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Departure]:
     """Report stored values that differ from what their formulas give."""
     columns = [line for exam in exams for line in exam.table.lines.values()]
     largest = {
@@ -547,7 +487,7 @@ def _stale(evaluator: Evaluator, exams: Sequence[Examination]) -> Iterator[Diffe
         rank = next((r for r in ranks if r[0] < 2), ranks[0])  # in the table that it belongs to
         stored, value = (str(x) if isinstance(x, Error) else x for x in (stored, value))
         text = "the stored value is not what the formula gives"
-        yield Difference("stale value", tuple(run), value, stored, text, rank)
+        yield Departure("stale value", tuple(run), value, stored, text, rank)
 
 
 def _is_rounding(evaluator: Evaluator, place: Position, largest: float) -> bool:
@@ -561,7 +501,7 @@ def _is_rounding(evaluator: Evaluator, place: Position, largest: float) -> bool:
     return abs(stored - value) <= 1e-14 * largest
 
 
-def _uncalculated(evaluator: Evaluator) -> Iterator[Difference]:
+def _uncalculated(evaluator: Evaluator) -> Iterator[Departure]:
     """Report formulas without a stored value, and those that this program does not compute."""
     reasons: dict[str, list[Position]] = {}
     for place in evaluator.formulas:
@@ -575,4 +515,4 @@ def _uncalculated(evaluator: Evaluator) -> Iterator[Difference]:
     for reason, places in reasons.items():
         formula = evaluator.book[places[0]].formula
         text = f"{share(places, evaluator.formulas, 'formula')}: {reason}"
-        yield Difference("not calculated", tuple(places), None, formula, text, (9.0,))
+        yield Departure("not calculated", tuple(places), None, formula, text, (9.0,))

@@ -8,49 +8,36 @@ so that a light one starts fast.
 import io
 import signal
 import sys
-from collections.abc import Mapping, Sequence
-from typing import NoReturn
+from collections.abc import Iterator, Mapping, Sequence
+from importlib import import_module
+from typing import NoReturn, cast
 
-from replication.cli import (
-    audit,
-    bench,
-    check,
-    claims,
-    converge,
-    crater,
-    depth,
-    diff,
-    fit,
-    history,
-    power,
-    sheet,
-    solve,
-    stability,
-    sweep,
-    workbook,
-)
 from replication.cli.output import complain, discard
 from replication.cli.parser import Command, parse_command_line
 
-COMMANDS: Mapping[str, Command] = {
-    "audit": audit,
-    "claims": claims,
-    "workbook": workbook,
-    "sheet": sheet,
-    "depth": depth,
-    "crater": crater,
-    "solve": solve,
-    "fit": fit,
-    "history": history,
-    "converge": converge,
-    "stability": stability,
-    "sweep": sweep,
-    "bench": bench,
-    "check": check,
-    "diff": diff,
-    "power": power,
-}
-"""The module of each command, in the order of `coldspray --help`."""
+NAMES = (
+    "audit", "claims", "workbook", "sheet", "depth", "crater", "solve", "fit", "history",
+    "converge", "stability", "sweep", "bench", "check", "diff", "power",
+)  # fmt: skip
+"""The commands, in the order of `coldspray --help`."""
+
+
+class Commands(Mapping[str, Command]):
+    """The module of each command by its name, imported when it is asked for."""
+
+    def __getitem__(self, name: str) -> Command:
+        if name not in NAMES:
+            raise KeyError(name)
+        return cast(Command, import_module(f"{__name__}.{name}"))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(NAMES)
+
+    def __len__(self) -> int:
+        return len(NAMES)
+
+
+COMMANDS = Commands()
 
 
 def main(arguments: Sequence[str] | None = None) -> int:

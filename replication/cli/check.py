@@ -28,13 +28,13 @@ def run(options: argparse.Namespace) -> int:
     from replication.check import show
     from replication.check.examination import KINDS, NO_FAULT
     from replication.check.shown import junit
-    from replication.check.workbook import check
+    from replication.check.workbook import check_workbook
 
-    checked = check(options.file, _mapping(options.map))
+    checked = check_workbook(options.file, _mapping(options.map))
     record = show.check_record(checked)
-    page = partial(show.html, record, checked.differences, checked.evaluator)
+    page = partial(show.check_page, record, checked.differences, checked.evaluator)
     tests = partial(junit, kinds=KINDS, no_fault=NO_FAULT)
-    return put_differences(options, record, show.text, page, tests)
+    return put_differences(options, record, show.check_text, page, tests)
 
 
 def _mapping(texts: list[str]) -> dict[str, str]:

@@ -2,7 +2,6 @@
 
 import argparse
 from collections.abc import Iterable
-from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from replication.cli.options import add_json, add_quiet, one_of
@@ -102,22 +101,32 @@ def _record(claim: "Claim", verdict: "Verdict | None") -> dict[str, Any]:
 def _prove_claim(options: argparse.Namespace, ledger: "Ledger") -> int:
     from replication.audit.audit import Audit
     from replication.audit.findings import findings_on
-    from replication.report import proof
-    from replication.report.document import claim_document
 
     audit = Audit(ledger)
-    claim, on_it = audit.claim(options.id), findings_on(audit, options.id)
-    text = partial(proof, claim, on_it, ledger, width(), may_emphasize())
-    return put(options, claim_document(claim), lambda: coloured(text()))
+    claim = audit.claim(options.id)
+    if options.json:
+        from replication.report.document import claim_document
+
+        return put(options, claim_document(claim), str)
+    from replication.report import proof
+
+    on_it = findings_on(audit, options.id)
+    print(coloured(proof(claim, on_it, ledger, width(), may_emphasize())))
+    return 0
 
 
 def _prove_equation(options: argparse.Namespace, ledger: "Ledger") -> int:
     from replication.audit.audit import Audit
     from replication.audit.findings import findings_on
-    from replication.report import equation_proof
-    from replication.report.document import equation_document
 
     audit = Audit(ledger)
-    equation, on_it = audit.equation(options.id), findings_on(audit, options.id)
-    text = partial(equation_proof, equation, on_it, ledger, width(), may_emphasize())
-    return put(options, equation_document(equation), lambda: coloured(text()))
+    equation = audit.equation(options.id)
+    if options.json:
+        from replication.report.document import equation_document
+
+        return put(options, equation_document(equation), str)
+    from replication.report import equation_proof
+
+    on_it = findings_on(audit, options.id)
+    print(coloured(equation_proof(equation, on_it, ledger, width(), may_emphasize())))
+    return 0

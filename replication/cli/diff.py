@@ -40,5 +40,5 @@ def run(options: argparse.Namespace) -> int:
     both = options.first, options.second
     compared = diff(*both, values_only=options.values_only, allowed=allowed)
     record = show.diff_record(compared)
-    page = partial(show.html, record, compared.differences, compared.after)
-    return put_differences(options, record, show.text, page, partial(junit, kinds=KINDS))
+    page = partial(show.diff_page, record, compared.differences, compared.after)
+    return put_differences(options, record, show.diff_text, page, partial(junit, kinds=KINDS))

@@ -96,7 +96,9 @@ def parse_command_line(
     )
     parser.add_argument("--version", action=_Version, nargs=0, help="print the version")
     choice = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
-    for name, command in commands.items():
+    first = arguments[0] if arguments else ""
+    for name in [first] if first in commands else commands:  # loading all of them takes longer
+        command = commands[name]
         about, example = f"{command.HELP[0].upper()}{command.HELP[1:]}.", command.EXAMPLE
         own = choice.add_parser(
             name, help=command.HELP, description=about, epilog=f"example: {example}"
@@ -109,7 +111,6 @@ def parse_command_line(
     for argument in arguments:
         if _DASHES.fullmatch(argument):
             parser.error(f"{quoted(argument)}: two dashes are not a value")
-    first = arguments[0]
     if first not in commands and (first == "--" or not first.startswith("-")):
         parser.error(f"there is no command {quoted(first)}: {advice(first, commands)}")
     if first.startswith("-") and not any(own.startswith(first) for own in _OWN_OPTIONS):

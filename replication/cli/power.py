@@ -48,6 +48,9 @@ def run(options: argparse.Namespace) -> int:
         "",
         table_text(result.table(), width(piped=10_000)),
     ]
+    if result.not_first:
+        reasons = result.reasons()
+        lines += ["", f"{reasons.caption}:", "", table_text(reasons, width(piped=10_000))]
     if result.unnoticed:
         lines += ["", "Visible, and not noticed:"]
         lines += ["  {entry}: {true!r} as {text!r}".format_map(plant) for plant in result.unnoticed]

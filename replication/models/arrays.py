@@ -8,8 +8,10 @@ neither NumPy nor Numba. Everything is in SI units.
 
 import inspect
 import math
+import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import cache, partial, wraps
+from itertools import repeat
 from typing import Any
 
 from reference.scheme import Scheme
@@ -18,11 +20,11 @@ from replication.models import crater, depth, estimates, impact, inverse, motion
 from replication.models.impact import (
     GREATEST,
     LEAST,
-    MAY_BE_ZERO,
     InputError,
     check_each,
     check_inputs,
     check_range,
+    least_usual,
 )
 
 Model = Callable[..., Any]
@@ -58,6 +60,7 @@ def _for_anything(
 ) -> Model:
     """Return the public form of a model: checked, and for numbers, arrays and other containers."""
     signature = inspect.signature(model)
+    least = tuple(map(least_usual, signature.parameters))
 
     @wraps(model)
     def function(*values: Any, **named: Any) -> Any:
@@ -65,11 +68,14 @@ def _for_anything(
             result = model(*values, **named)
             if result == result:  # not NaN
                 return result
+        elif not named and _are_lines(values, len(least)):
+            try:
+                return _each(model, *values, least=least)
+            except _UnusualError:  # the first bad element, if there is one, is named below
+                pass
         bound = signature.bind(*values, **named)
         bound.apply_defaults()
-        compute = partial(
-            _computed, model, lambda *cases: _each(model, *cases), range_check=range_check
-        )
+        compute = partial(_computed, model, partial(_each, model), range_check)
         return _contained(compute, bound.arguments, (float,))
 
     return _public(function, model, doc)
@@ -202,6 +208,11 @@ def _is_line(time: Any) -> bool:
     return bool(time.dtype.char == "d" and time.dtype.isnative and time.flags.carray)
 
 
+def _are_lines(values: Sequence[Any], count: int) -> bool:
+    """Return whether these are so many arrays of one length that compiled code takes unchanged."""
+    return len(values) == count and all(map(_is_line, values)) and len(set(map(len, values))) == 1
+
+
 def _filled(model: Model, first: float, *values: Any) -> tuple[float, Any]:
     """Return both results, for one case, of a model that fills them in; a history's at one time."""
     depth, second = [0.0], [0]
@@ -252,6 +263,10 @@ def run_many(
 # Checks
 
 
+class _UnusualError(Exception):
+    """Among the inputs is one that is not `_in_range`, or a result is NaN or infinite."""
+
+
 def _computed(
     plain: Model, many: Model, range_check: Callable[..., None] = check_range, **inputs: Any
 ) -> Any:
@@ -298,13 +313,19 @@ def _are_floats(numbers: Mapping[str, Any]) -> bool:
 
 def _in_range(numbers: Mapping[str, Any]) -> bool:
     """Return whether no product of these numbers can leave the range of doubles."""
-    for name, number in numbers.items():
-        low, high = number, number
-        if type(number) is not float:
-            low, high = number.min(initial=1.0), number.max(initial=1.0)
-        if not (0.0 if name in MAY_BE_ZERO else LEAST) <= low <= high <= GREATEST:
-            return False
-    return True
+    return all(_is_within(number, least_usual(name), GREATEST) for name, number in numbers.items())
+
+
+def _is_within(number: Any, least: float, greatest: float) -> bool:
+    """Return whether a number, or each of an array, lies between these, and so is not NaN."""
+    if type(number) is float:
+        return least <= number <= greatest
+    flags = number.flags
+    if flags.c_contiguous and flags.aligned:
+        line = number.reshape(-1)  # a view
+        line.flags.writeable = False  # the one kind of array that it is compiled for
+        return bool(compiled(impact.are_within)(line, least, greatest))
+    return bool(least <= number.min(initial=greatest) and number.max(initial=least) <= greatest)
 
 
 def _common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
@@ -423,13 +444,17 @@ def _without_result(case: Mapping[str, float], result: float) -> InputError:
 # Compiling and computing
 
 
-def _each(model: Model, *values: Any) -> Any:
+def _each(model: Model, *values: Any, least: tuple[float, ...] = ()) -> Any:
     """Return the compiled model's results for values that broadcast, on all cores if it pays.
 
-    The times of histories are a last axis of their own. The work is shared among Python threads,
-    which run at the same time because compiled code releases Python's lock. Numba's own threads
-    cannot be started from two threads at once and do not survive a fork. Only the main thread
-    shares out work: a caller with threads of its own, such as dask, has done so already.
+    The times of histories are a last axis of their own. Where the `least` value of each input is
+    given, raises _UnusualError if an input or a result is unusual; each piece is checked when it is
+    computed.
+
+    The work is shared among Python threads, which run at the same time because compiled code
+    releases Python's lock. Numba's own threads cannot be started from two threads at once and do
+    not survive a fork. Only the main thread shares out work: a caller with threads of its own, such
+    as dask, has done so already.
     """
     import threading
 
@@ -443,7 +468,7 @@ def _each(model: Model, *values: Any) -> Any:
     weight = 100 if model.__module__ in (motion.__name__, sheet.__name__) else 1
     pieces = min(math.prod(shape) * weight // PIECE, max(shape, default=0))
     if pieces < 2 or threading.current_thread() is not threading.main_thread():
-        return _evaluated(function, *values)
+        return _evaluated(function, values, least)
     from concurrent.futures import ThreadPoolExecutor
 
     import numba
@@ -454,7 +479,7 @@ def _each(model: Model, *values: Any) -> Any:
     results = [np.empty(shape + times, kind) for kind in function.types[0].partition("->")[2]]
 
     def work(*parts: Any) -> None:
-        _evaluated(function, *parts[: len(views)], out=parts[len(views) :])
+        _evaluated(function, parts[: len(views)], least, out=parts[len(views) :])
 
     cut = [np.array_split(array, pieces, axis) for array in (*views, *results)]
     with ThreadPoolExecutor(numba.config.NUMBA_NUM_THREADS) as pool:
@@ -462,12 +487,22 @@ def _each(model: Model, *values: Any) -> Any:
     return tuple(results) if len(results) > 1 else results[0]
 
 
-def _evaluated(function: Any, *values: Any, **options: Any) -> Any:
-    """Call a ufunc without NumPy's warnings: its results are checked, and errors named by place."""
+def _evaluated(
+    function: Any, values: Sequence[Any], least: tuple[float, ...] = (), **options: Any
+) -> Any:
+    """Call a ufunc without NumPy's warnings: its results are checked, and errors named by place.
+
+    They are checked here, as the values are, if the `least` of each value is given.
+    """
     import numpy as np
 
+    if not all(map(_is_within, values, least, repeat(GREATEST))):
+        raise _UnusualError
     with np.errstate(all="ignore"):
-        return function(*values, **options)
+        results = function(*values, **options)
+    if least and not _is_within(results, -math.inf, sys.float_info.max):
+        raise _UnusualError
+    return results
 
 
 def ufunc(model: Model) -> Any:
@@ -479,9 +514,10 @@ def ufunc(model: Model) -> Any:
 def compiled(model: Model, alone: bool = False) -> Any:
     """Compile a model as a ufunc, or `motion.history` for single cases if it is to be `alone`.
 
-    Alone it is a microsecond faster to call. The compiled code is stored on disk, if there is a
-    folder that can be written to. That takes some seconds, once. A signal that would end the
-    program acts when it is done: the compiler catches some of the errors raised within it.
+    Alone it is a microsecond faster to call. `impact.are_within` takes one array in a row. The
+    compiled code is stored on disk, if there is a folder that can be written to. That takes some
+    seconds, once. A signal that would end the program acts when it is done: the compiler catches
+    some of the errors raised within it.
     """
     with postponed_signals():
         return _compiled(model, alone)
@@ -494,11 +530,12 @@ def _compiled(model: Model, alone: bool) -> Any:
 
     numba = import_numba()
     from filelock import FileLock
-    from numba import b1, f8, i8, void
+    from numba import b1, f8, i8, types, void
 
     if numba.config.DISABLE_JIT:
         raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
     _make_known()
+    line = types.Array(f8, 1, "C", readonly=True)
     compilers = {
         motion.history: partial(
             numba.guvectorize,
@@ -510,12 +547,13 @@ def _compiled(model: Model, alone: bool) -> Any:
             [(*[f8] * 7, b1, f8[:], i8[:])],
             "(),(),(),(),(),(),(),()->(),()",
         ),
+        impact.are_within: partial(numba.njit, [b1(line, f8, f8)], nogil=True),
     }
     numbers = [f8] * len(inspect.signature(model).parameters)
     compiler = compilers.get(model, partial(numba.vectorize, [f8(*numbers)]))
     if alone:
-        types = [void(f8[::1], *[f8] * 5, f8[::1], f8[::1])]
-        compiler = partial(numba.njit, types, nogil=True)
+        signature = void(f8[::1], *[f8] * 5, f8[::1], f8[::1])
+        compiler = partial(numba.njit, [signature], nogil=True)
     root = FunctionType(model.__code__, model.__globals__, model.__name__)
     # Numba looks only for changes to the model's own file. The hash covers all that it calls.
     sources = sorted(Path(__file__).parent.glob("*.py"))

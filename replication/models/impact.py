@@ -1,7 +1,7 @@
 """`Impact`: the checked inputs of one particle hitting one target."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
@@ -162,6 +162,28 @@ def check_range(
     # The depth over the radius is at most some 800 times this ratio, and histories square it.
     carried("ratio of the densities squared", ratio * ratio)
     carried("kinetic energy density over target resistance", pressure / resistance * ratio)
+
+
+def least_usual(name: str) -> float:
+    """Return the least value of an input of this name with which no product has to be checked.
+
+    >>> least_usual("velocity"), least_usual("at_velocity")
+    (1e-40, 0.0)
+    """
+    return 0.0 if name in MAY_BE_ZERO else LEAST
+
+
+def are_within(values: Sequence[float], least: float, greatest: float) -> bool:
+    """Return whether each of the values lies between these two, and so none is NaN.
+
+    >>> are_within([1.0, 2.0], 1.0, 2.0), are_within([1.0, math.nan], 1.0, 2.0)
+    (True, False)
+    """
+    within = True
+    # By index and to the end: so the compiler makes it look at several values at once.
+    for k in range(len(values)):
+        within &= (least <= values[k]) & (values[k] <= greatest)
+    return within
 
 
 def check_each(**inputs: float) -> None:

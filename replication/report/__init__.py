@@ -3,29 +3,19 @@
 import re
 from collections.abc import Mapping, Sequence
 from functools import cache
-from hashlib import sha256
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from msgspec.structs import replace
 
 from reference.ledger import INFERRED, Ledger
-from replication import page
 from replication.audit.record import ClaimRecord, EquationRecord, Finding, Record
 from replication.report import tables, words
-from replication.report.arrangement import Arrangement
-from replication.report.document import audit_document
-from replication.report.figures import draw_figures
 from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, plain_quotation
-from replication.text import (
-    Table,
-    columns,
-    json_text,
-    number,
-    quantity,
-    rows_csv,
-    table_text,
-)
-from replication.text import prose as filled
+from replication.report.terminal import Terminal, capital
+from replication.text import json_text, number, quantity, rows_csv
+
+if TYPE_CHECKING:
+    from replication.report.arrangement import Arrangement
 
 FILES = (
     "audit.html", "audit.md", "audit.json", "audit.csv", "hard-cases.txt", "workbook.xlsx",
@@ -36,6 +26,11 @@ FILES = (
 
 def contents(record: Record, beside: Mapping[str, bytes]) -> dict[str, bytes]:
     """Return every file of the folder by name; the record names those `beside` it with hashes."""
+    from hashlib import sha256
+
+    from replication.report.document import audit_document
+    from replication.report.figures import draw_figures
+
     hashes = {name: sha256(content).hexdigest() for name, content in beside.items()}
     provenance = record.provenance | {"sha256": record.provenance["sha256"] | hashes}
     record = replace(record, provenance=provenance)
@@ -70,6 +65,9 @@ def _csv(claims: Sequence[Mapping[str, Any]]) -> str:
 
 def html(record: Record, drawings: Mapping[str, str]) -> str:
     """Write the page, with the figures; it has no scripts and loads nothing from outside."""
+    from replication import page
+    from replication.report.arrangement import Arrangement
+
     arranged = Arrangement(record)
     prose = Prose(HTML, record.symbols, arranged.names)
     parts = {"drawings": drawings, "head": page.head("replication.report")}
@@ -78,12 +76,14 @@ def html(record: Record, drawings: Mapping[str, str]) -> str:
 
 def markdown(record: Record) -> str:
     """Write the same as Markdown, without the figures."""
+    from replication.report.arrangement import Arrangement
+
     arranged = Arrangement(record)
     prose = Prose(MARKDOWN, record.symbols, arranged.names)
     return _from_template("page.md.j2", prose, _common(arranged))
 
 
-def _common(arranged: Arrangement) -> dict[str, Any]:
+def _common(arranged: "Arrangement") -> dict[str, Any]:
     """Return what page and Markdown are made of."""
     return {"record": arranged.record, "arranged": arranged, "words": words, "tables": tables}
 
@@ -92,9 +92,11 @@ def _from_template(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
     """Fill a template of this folder; outside HTML, reduce several empty lines to one."""
     from markupsafe import Markup
 
+    from replication import page
+
     finished = Markup if prose.form is HTML else str  # `prose` has escaped the sentence
     filters = {
-        "capital": lambda text: text[:1].upper() + text[1:] if text[:1].isascii() else text,
+        "capital": capital,
         "number": number,
         "printed_with_unit": words.printed_with_unit,
         # A macro returns Markup: str() keeps jinja2 from escaping in it what `prose` escapes.
@@ -125,7 +127,11 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
     }
     by_title = TERMINAL._replace(known="{title}")
     prose = Prose(by_title, record.symbols, words.names_of(record))
-    return _on_terminal("summary.txt.j2", prose, parts, width, strong)
+    writer = Terminal(prose, width, strong)
+    helpers = {
+        "fill": writer.filled, "table_text": writer.grid, "strong": writer.emphasized,
+    }  # fmt: skip
+    return _from_template("summary.txt.j2", prose, {**parts, **helpers}).rstrip("\n")
 
 
 def proof(
@@ -140,13 +146,23 @@ def proof(
     Other entries are named by the ledger.
     """
     names = _names(ledger)
-    parts = {
-        "record": claim,
-        "facts": tables.facts(claim, names),
-        "tables": tables.explanation_tables(claim),
-        "findings": findings,
-    }
-    return _on_terminal("claim.txt.j2", _prose(ledger, names), parts, width, strong)
+    writer = Terminal(_prose(ledger, names), width, strong)
+    stated, quote = claim.claim, writer.prose(plain_quotation(claim.claim.quote))
+    parts = [
+        writer.heading(stated.title, claim.id),
+        writer.filled(f"{words.printed_with_unit(stated)}, {stated.place}: {claim.verdict}"),
+        writer.filled(f'"{quote.replace("⟦", "").replace("⟧", "")}"'),
+        "",
+        writer.filled(writer.prose(f"{claim.explanation} {claim.scope}")),
+    ]
+    if claim.worked:
+        by_hand = writer.prose(claim.worked.by_hand)
+        formula = writer.prose(claim.worked.formula)
+        parts += ["", writer.filled(formula), writer.filled(f"By hand: {by_hand}")]
+    if facts := tables.facts(claim, names):
+        parts += ["", writer.columns(facts)]
+    shown = tables.explanation_tables(claim)
+    return "\n".join([*parts, *writer.grids(shown), *writer.titles(findings)])
 
 
 def equation_proof(
@@ -157,15 +173,17 @@ def equation_proof(
     strong: bool = False,
 ) -> str:
     """Write one equation with what its verdict rests on, and the titles of the findings on it."""
+    writer = Terminal(_prose(ledger, _names(ledger)), width, strong)
     shown = tables.constants(equation, ledger), tables.repairs(equation.repairs)
-    parts = {
-        "record": equation,
-        "title": words.equation_title(equation),
-        "tables": [table for table in shown if table.rows],
-        "findings": findings,
-    }
-    prose = _prose(ledger, _names(ledger))
-    return _on_terminal("equation.txt.j2", prose, parts, width, strong)
+    parts = [
+        writer.heading(words.equation_title(equation), equation.id),
+        writer.filled(f"{equation.equation.place}: {equation.verdict}"),
+        writer.filled(writer.prose(plain_quotation(equation.text))),
+        "",
+        writer.filled(writer.prose(equation.explanation)),
+    ]
+    full = [table for table in shown if table.rows]
+    return "\n".join([*parts, *writer.grids(full), *writer.titles(findings)])
 
 
 def _names(ledger: Ledger) -> dict[str, Named]:
@@ -182,23 +200,3 @@ def _names(ledger: Ledger) -> dict[str, Named]:
 def _prose(ledger: Ledger, names: Mapping[str, Named]) -> Prose:
     symbols = (symbol.shown for symbol in ledger.symbols.values())
     return Prose(TERMINAL, symbols, names)
-
-
-def _on_terminal(
-    name: str, prose: Prose, parts: Mapping[str, Any], width: int, strong: bool
-) -> str:
-    def wrapped(text: str, indent: str = "") -> str:
-        return filled(text, width, indent, indent and indent + "  ")
-
-    def in_columns(rows: Sequence[tuple[str, ...]]) -> str:
-        return columns([tuple(map(prose, row)) for row in rows], width)
-
-    def grid(table: Table) -> str:
-        heads, *rows = (tuple(map(prose, row)) for row in (table.heads, *table.rows))
-        return table_text(Table("", heads, rows), width)
-
-    bold = "\x1b[1m{}\x1b[0m" if strong else "{}"
-    helpers = {
-        "fill": wrapped, "columns": in_columns, "table_text": grid, "strong": bold.format,
-    }  # fmt: skip
-    return _from_template(name, prose, {**parts, **helpers}).rstrip("\n")

@@ -123,6 +123,7 @@ class Arrangement:
         self.names = words.names_of(record)
         self._by_hand_first = sorted(record.findings, key=lambda finding: not finding.by_hand)
         self.groups = _groups(record)
+        self.numbers = {finding.id: k for k, finding in enumerate(record.findings, 1)}
         self.sections = {
             name: title for name, title in SECTIONS.items() if self.groups.get(name, True)
         }
@@ -179,6 +180,11 @@ class Arrangement:
         """The claims that repeat others or are chosen, each with what it agrees with."""
         records = self.groups["repeated"].values()
         return [(record, words.repetition_in_words(record, self.names)) for record in records]
+
+    @property
+    def said_again(self) -> list[ClaimRecord]:
+        """The remarks that say again what another says, and so have no figures of their own."""
+        return [record for record in self.groups["remarks"].values() if record.claim.same_as]
 
     @property
     def undecided(self) -> list[tuple[str, list[ClaimRecord]]]:
@@ -245,10 +251,13 @@ class Arrangement:
         ]
 
     @property
-    def power(self) -> tuple[str, Table, Table]:
-        """What the audit notices of planted misprints: in words, the rates, and these by kind."""
+    def power(self) -> tuple[str, Table, Table, Table]:
+        """What the audit notices of planted misprints: in words, the rates, by kind, and reasons.
+
+        The reasons are those for which a true text is not named first.
+        """
         rates = measured_rates()
-        return words.power_in_words(rates), rates.rates(), rates.table()
+        return words.power_in_words(rates), rates.rates(), rates.table(), rates.reasons()
 
 
 def _groups(record: Record) -> dict[str, dict[str, ClaimRecord]]:

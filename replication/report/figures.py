@@ -178,25 +178,28 @@ def _observed(record: Record) -> list[float]:
 
 
 def _approaches_plot(record: Record) -> _Plot:
-    """Show X/R by each approach in a row: computed as filled marks, printed or quoted as hollow."""
+    """Show X/R by each approach in a row: computed as filled marks, printed or quoted as hollow.
+
+    Those for a beta of the report have the color and the mark of that case.
+    """
     observed = _observed(record)
     shown = [a for a in record.approaches if a.kind != "observed"]
     title = "Normalized depth by every approach of the report"
     height = 30 * len(shown)
-    plot = _Plot(title, (190, 8, 240, height), (0, 1.1), (len(shown) - 0.5, -0.5), below=115)
+    plot = _Plot(title, (190, 8, 240, height), (0, 1.1), (len(shown) - 0.5, -0.5), below=132)
     plot.bar(min(observed), max(observed), (len(shown) - 1) / 2, SHADE, plot.height)
     plot.axes([k / 5 for k in range(6)], [], "Normalized depth X/R")
     plot.rows([f"{a.kind}: {a.name}".replace(", ", ",; ").replace("beta", "β") for a in shown])
     for y, a in enumerate(shown):
+        kind, color = ("diamond", INK) if a.beta is None else _look(a.beta)
         if a.shown:
-            kind = ("hollow diamond", INK) if a.computed is None else ("hollow square", INK)
-            plot.marks(*kind, [(float(a.shown), y)])
+            plot.marks(f"hollow {kind}", color, [(float(a.shown), y)])
         if a.computed is not None:
-            plot.marks("circle", INK, [(a.computed, y)])
+            plot.marks(kind, color, [(a.computed, y)])
     plot.legend(100, height + 60, {
-        "computed in this audit": ("circle", INK),
-        "printed by the report": ("hollow square", INK),
-        "quoted by the report, not recomputable": ("hollow diamond", INK),
+        **{f"computed, β = {beta}": _look(float(beta)) for beta in CURVES},
+        "computed, Frank and Zook": ("diamond", INK),
+        "hollow: as the report prints or quotes it": ("hollow diamond", INK),
         f"observed, {min(observed):.3f} to {max(observed):.3f}": ("line", SHADE),
     })  # fmt: skip
     values = []

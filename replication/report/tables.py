@@ -81,13 +81,21 @@ MAIN = (
 
 
 def main_results(record: r.Record) -> Table:
-    """Return the report's main results, as printed and as computed."""
+    """Return the report's main results, as printed and as computed.
+
+    A verdict that is the same for all stands in the title.
+    """
+    shown = [c for c in record.claims if c.id in MAIN and c.computed is not None]
     rows = [
-        (c.claim.title, printed_with_unit(c.claim), measured(c.computed, c.claim.unit), c.verdict)
-        for c in record.claims
-        if c.id in MAIN and c.computed is not None
+        (c.claim.title, printed_with_unit(c.claim), measured(c.computed, c.claim.unit))
+        for c in shown
     ]
-    return Table("Main results", ("number", "printed", "computed", "verdict"), rows)
+    verdicts = dict.fromkeys(c.verdict for c in shown)
+    if len(verdicts) == 1:
+        title = f"The {len(shown)} main results: {next(iter(verdicts))}"
+        return Table(title, ("number", "printed", "computed"), rows)
+    judged = [(*row, c.verdict) for row, c in zip(rows, shown, strict=True)]
+    return Table("Main results", ("number", "printed", "computed", "verdict"), judged)
 
 
 def not_as_printed(record: r.Record) -> Table:
@@ -103,7 +111,7 @@ def not_as_printed(record: r.Record) -> Table:
     *_, last = heads = tuple(dict.fromkeys([as_printed, *filter(None, names)]))
     rows = []
     for entry in failing:
-        digits = significant(entry.claim.text)
+        digits = significant_digits(entry.claim.text)
         texts = {
             reading.name or as_printed: f"{reading.computed:#.{digits}g}"
             for reading in entry.assessment.readings
@@ -115,10 +123,10 @@ def not_as_printed(record: r.Record) -> Table:
     return Table("What does not come out as printed", ("number", "printed", *heads), rows)
 
 
-def significant(text: str) -> int:
+def significant_digits(text: str) -> int:
     """Count the significant digits of a printed number.
 
-    >>> significant("0.0550"), significant(">= 2680"), significant("7.6E9")
+    >>> significant_digits("0.0550"), significant_digits(">= 2680"), significant_digits("7.6E9")
     (3, 4, 2)
     """
     mantissa = re.split(r"[eE×\\]", text)[0]
@@ -127,7 +135,7 @@ def significant(text: str) -> int:
 
 def explanation_tables(record: r.ClaimRecord) -> list[Table]:
     """Return the explanations tried for a claim that fails, and the figures that judge a remark."""
-    figures = [(f.means, measured(f.value, f.unit, 5) or NO_VALUE) for f in record.figures]
+    figures = [(f.means, measured(f.value, f.unit, 4) or NO_VALUE) for f in record.figures]
     slips = [(s.name, str(s.departures), measured(s.value, "1", 5), s.fits) for s in record.slips]
     inputs = []
     for entry in dict.fromkeys(solved.entry for solved in record.back_solved):
@@ -201,12 +209,18 @@ def repairs(listed: Iterable[r.Repair], claim: str = "") -> Table:
 
 
 def evidence(finding: r.Finding) -> Table:
-    """Return the numbers of a finding, as stated and as computed."""
-    rows = [
-        (x.means, quantity(x.asserted, x.unit), computed(x) + ": NOT AS STATED" * (not x.holds))
-        for x in finding.evidence
-    ]
-    return Table("The finding's numbers, recomputed", ("what", "stated", "computed"), rows)
+    """Return the numbers of a finding, with two digits more than it states.
+
+    A number that stands in its text is shown as it stands there, any other by what it means.
+    """
+    text = " ".join((finding.title, finding.statement, finding.by_hand))
+    standing = set(re.findall(r"\d+(?:\.\d+)?(?:/\d+)?", text))
+    rows = []
+    for piece in finding.evidence:
+        is_stated = piece.asserted.lstrip("<=> ") in standing
+        shown = quantity(piece.asserted, piece.unit) if is_stated else piece.means
+        rows.append((shown, computed(piece) + ": NOT AS STATED" * (not piece.holds)))
+    return Table("The numbers of this text, with two more digits", ("stated", "computed"), rows)
 
 
 def computed(piece: r.Evidence) -> str:
@@ -225,7 +239,7 @@ def computed(piece: r.Evidence) -> str:
     if isinstance(piece.computed, bool):
         return "yes" if piece.computed else "no"
     safe = {">": ROUND_FLOOR, "<": ROUND_CEILING}.get(piece.asserted[:1], ROUND_HALF_EVEN)
-    digits = significant(piece.asserted) + 2
+    digits = significant_digits(piece.asserted) + 2
     return quantity(rounded(Fraction(piece.computed), digits, safe), piece.unit)
 
 

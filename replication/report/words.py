@@ -20,6 +20,27 @@ ABOUT = (
     "recomputes every number for which the report gives the means."
 )
 
+CONVENTIONS = (
+    "Each computed number is judged under several conventions, as far as they concern it: digits "
+    "rounded to nearest with ties away from zero or to even, or cut off; what the author chose "
+    "taken as exact or as rounded to its printed digits; the header of Table A-1 likewise; the "
+    "drag of the sheet at the initial velocity of a row or at its middle velocity. For a number "
+    "that is reproduced, the proven range is that of the inputs as printed, with an inferred input "
+    "anywhere within its evidence. For any other number, it holds for all inputs that print like "
+    "the report's."
+)
+
+USUAL_CONDITIONS = (
+    "Unless it says otherwise, a verdict here holds under three ways of rounding and, where these "
+    "concern it, under both schemes of the sheet, and with the author's choices and the header of "
+    "Table A-1 exact or rounded."
+)
+
+ABOUT_REMARKS = (
+    "What the report says of its results in words gets no verdict. The figures below help to judge "
+    "it; of several the first tells most."
+)
+
 MEANINGS: Mapping[Verdict, str] = {
     Verdict.REPRODUCED: "the value computed from the inputs as printed rounds to the "
     "printed number, for every admitted value of an input that the "
@@ -71,6 +92,12 @@ def shown_range(effect: r.Effect) -> str:
     """
     scale, unit = _SCALES.get(effect.input, (1.0, INPUTS[effect.input]))
     return quantity(between((effect.low * scale, effect.high * scale), 4), unit)
+
+
+def condition(record: r.ClaimRecord) -> str:
+    """Return under which conventions a verdict holds, unless `USUAL_CONDITIONS` says it."""
+    said = record.verdict.is_open or any(r.otherwise for r in record.assessment.readings[:1])
+    return record.scope if said else ""
 
 
 # What an id refers to
@@ -167,7 +194,7 @@ def density(record: r.Record) -> str:
 def entries(counts: r.Counts) -> str:
     """Say how many entries the ledger has."""
     return (
-        f"Together with {counts.remarks} comparisons in words, these numbers make "
+        f"Together with {counts.remarks} remarks in words, these numbers make "
         f"{counts.entries} entries."
     )
 

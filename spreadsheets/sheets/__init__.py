@@ -19,7 +19,7 @@ from spreadsheets.sheets.figure_3 import figure_3
 from spreadsheets.sheets.figure_5 import figure_5
 from spreadsheets.sheets.frank_zook import frank_zook
 from spreadsheets.sheets.inputs import inputs_sheet
-from spreadsheets.sheets.overview import PROGRAM, overview, title_of
+from spreadsheets.sheets.overview import overview, program, title_of
 from spreadsheets.sheets.resistance import resistance
 from spreadsheets.sheets.solve import solve
 from spreadsheets.sheets.table_a1 import table_a1
@@ -61,7 +61,7 @@ def _properties(ledger: Ledger) -> dict[str, str]:
     report = ledger.report
     return {
         "title": title_of(ledger),
-        "author": PROGRAM,
+        "author": program(),
         "subject": f"The model of a report by {report.author} ({report.year}), as live formulas"
         " beside their computed values",
         "keywords": "cold spray, penetration, replication, audit",

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from reference.ledger import Claim, Ledger
 from spreadsheets.plan import (
     NOT_COMPUTED,
+    YES_OR_NO,
     Cell,
     Place,
     Rule,
@@ -43,8 +44,9 @@ class AuditResult:
 
 _HEAD_ROW = 11
 _HEADS = (
-    ("Claim", 24), ("What", 50), ("Printed", 15), ("Unit", 8), ("Computed", 13),
-    ("Live verdict", 14), ("The audit’s verdict", 25), ("From", 11), ("To", 11), ("Where", 34),
+    ("Claim", 24), ("What", 46), ("Printed", 15), ("Unit", 8), ("Computed", 13),
+    ("Live verdict", 14), ("The audit’s verdict", 24), ("From", 11), ("To", 11),
+    ("Number", 13), ("Above From", 12), ("Below To", 12), ("Prints so?", 15), ("Where", 34),
     ("Computed in", 20), ("Explanation", 60),
 )  # fmt: skip
 
@@ -78,14 +80,14 @@ def audit_sheet(
         width=150,
     )
     sheet.print_area, sheet.portrait = f"A1:G{last}", True
-    sheet.filtered = f"A{_HEAD_ROW}:L{last}"
+    sheet.filtered = f"A{_HEAD_ROW}:P{last}"
     sheet.row = 6
     sheet.block("Live verdicts")
     for verdict, name in LIVE_VERDICTS.items():
         count = formula(name, f'=COUNTIF({verdicts},"{verdict}")', "message", named=True)
         sheet.put(A=Cell(verdict, "text"), B=count)
     sheet.row = _HEAD_ROW
-    sheet.table(_HEADS, right="CEHI", scrolling="B")
+    sheet.table(_HEADS, right="CEHIJKL", scrolling="B")
     for claim in ledger.claims.values():
         cells = _claim_row(ledger, claim, audited)
         if claim.id in computed_in:
@@ -104,8 +106,8 @@ def _claim_row(ledger: Ledger, claim: Claim, audited: AuditResult) -> dict[str, 
         "D": unit_text(claim.unit),
         "F": Cell("–", "text"),
         "G": Cell(audited.verdicts[claim.id], "text", wrap=True),
-        "J": Cell(str(claim.place), "unit"),
-        "L": Cell(audited.explanations[claim.id], "unit"),
+        "N": Cell(str(claim.place), "unit"),
+        "P": Cell(audited.explanations[claim.id], "unit"),
     }
 
 
@@ -123,27 +125,33 @@ def _live(claim: Claim, place: Place, row: int) -> dict[str, Cell]:
     computed = f"='{sheet}'!{address}"
     return {
         "E": formula(f"{key}.computed", computed, shown=shown, unit=claim.unit),
-        "F": formula(f"{key}.verdict", _live_verdict(claim, row), "text"),
-        "K": Cell(f"{sheet}!{address}", "link", link=place),
+        "F": formula(f"{key}.verdict", f'=IFERROR(M{row},"{NOT_COMPUTED}")', "text"),
+        **_conditions(claim, row, shown),
+        "O": Cell(f"{sheet}!{address}", "link", link=place),
         **ends,
     }
 
 
-def _live_verdict(claim: Claim, row: int) -> str:
-    """Return the live verdict: whether E lies between H and I, which are open or closed ends.
+def _conditions(claim: Claim, row: int, shown: str) -> dict[str, Cell]:
+    """Return the cells that compare E with H and I, which are open or closed ends.
 
-    A blank cell of Table A-1 is greater than any number, so that the verdict asks ISNUMBER.
+    A blank cell of Table A-1 is no number, but it would be greater than any, so J is #N/A for it.
     """
-    interval, verdict = claim.interval(), f'"{AS_PRINTED}"'
+    interval, key = claim.interval(), f"audit.{claim.id}"
+    above = below = ""
     if interval.is_point:
         # To nine digits, since no double is 2/3 and programs round it differently.
-        same = f"ABS(E{row}-H{row})*1000000000<=ABS(H{row})"
-        verdict = f'IF({same},{verdict},"{OTHERWISE}")'
+        above = f"ABS(J{row}-H{row})*1000000000<=ABS(H{row})"
     else:
-        if interval.upper is not None:
-            below = "<=" if interval.upper_closed else "<"
-            verdict = f'IF(E{row}{below}I{row},{verdict},"{OTHERWISE}")'
         if interval.lower is not None:
-            above = ">=" if interval.lower_closed else ">"
-            verdict = f'IF(E{row}{above}H{row},{verdict},"{OTHERWISE}")'
-    return f'=IF(ISNUMBER(E{row}),{verdict},"{NOT_COMPUTED}")'
+            above = f"J{row}{'>=' if interval.lower_closed else '>'}H{row}"
+        if interval.upper is not None:
+            below = f"J{row}{'<=' if interval.upper_closed else '<'}I{row}"
+    cells = {"J": formula(f"{key}.number", f"=IF(ISNUMBER(E{row}),E{row},NA())", shown=shown)}
+    if above:
+        cells["K"] = formula(f"{key}.above", f"=IF({above},1,0)", shown=YES_OR_NO)
+    if below:
+        cells["L"] = formula(f"{key}.below", f"=IF({below},1,0)", shown=YES_OR_NO)
+    inside = f"MIN(K{row},L{row})" if above and below else f"K{row}" if above else f"L{row}"
+    verdict = f'=IF({inside}=1,"{AS_PRINTED}","{OTHERWISE}")'
+    return cells | {"M": formula(f"{key}.prints_so", verdict, "text")}

@@ -10,15 +10,15 @@ from typing import NamedTuple
 
 from reference.ledger import Ledger
 from reference.scheme import Scheme
-from spreadsheets.plan import Rule, SheetPlan, formula
+from spreadsheets.plan import YES_OR_NO, Rule, SheetPlan, formula
 from spreadsheets.sheets import messages
 from spreadsheets.sheets.formulas import cap_angle, depth, log1p
 
 FIRST_ROW = 10
 """The row of the sheet that holds row 0 of the scheme, the impact itself."""
 
-_ROWS_OF_A_PAGE = 81
-"""The most rows that are printed on a single page, in type of 6.5 points."""
+_LAST_PRINTED = 82
+"""The last row of the sheet that is printed: a single page, in type of 7 points."""
 
 MAX_ROWS = 20_000
 """The most rows of a sheet; to write them takes half a minute and gigabytes of memory."""
@@ -221,14 +221,16 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     if case.coarse:
         about = "The same with the time step of the comparison, and what that changes (section 3)"
     sheet = SheetPlan(ledger=ledger, name=case.name, about=about, columns="IJKLMN")
-    sheet.widths = {"A": 5, "B": 9, "G": 9, "I": 8, "J": 29, "K": 12, "L": 7, "M": 21, "N": 26}
+    sheet.widths = {"A": 4.5, "B": 8.5, "G": 8, "I": 8, "J": 29, "K": 10.5, "L": 7, "N": 26}
+    sheet.wide("M", 21 if case.coarse else 14)
     sheet.wide("CF", 10)
-    sheet.wide("DE", 10.5)
-    sheet.wide("H", 13 if case.scheme is Scheme.CENTERED else 3)
+    sheet.wide("DE", 10)
+    sheet.wide("H", 11 if case.scheme is Scheme.CENTERED else 3)
     sheet.begin("Rigid-body penetration, row by row")
     _label(sheet, case)
-    key = f"message{case.suffix}"
-    sheet.cells["A3"] = formula(key, _message(case.suffix), "message", named=True)
+    s = case.suffix
+    message = f'=IFERROR(says_both{s}&says_rows{s}&says_run{s},"{messages.NO_RUN}")'
+    sheet.cells["A3"] = formula(f"message{s}", message, "message", named=True)
     sheet.row = 4
     sheet.say(
         "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed"
@@ -237,9 +239,9 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         width=160,
     )
     sheet.say(
-        "The run stops with the first row below v_stop; printed pages end with the last row as"
-        f" written. {case.rows} rows are prepared; coldspray workbook prepares N, up to"
-        f" {MAX_ROWS}, with the same options and --rows N.",
+        f"The run stops with the first row below v_stop. Rows 0 to {_LAST_PRINTED - FIRST_ROW} are"
+        f" printed, on one page with the results. {case.rows} rows are prepared; coldspray workbook"
+        f" prepares N, up to {MAX_ROWS}, with the same options and --rows N.",
         width=160,
     )
     top = sheet.row = FIRST_ROW - 2
@@ -249,12 +251,15 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     _results(sheet, case)
     _exact(sheet, case)
     _state(sheet, case)
+    _said(sheet, case)
+    if not case.resistance_given:
+        _renamed(sheet, case)
     if case.coarse:
         _comparison(sheet, case)
     sheet.headed = "A", top, top + 1
-    last = max(FIRST_ROW + case.steps, sheet.row - 1)
-    sheet.print_area, sheet.portrait = f"A1:M{last}", True
-    sheet.one_page = last <= _ROWS_OF_A_PAGE
+    # Not every program follows a print area that is a formula. This one needs not follow the run.
+    sheet.print_area = f"A1:M{_LAST_PRINTED}"
+    sheet.portrait = sheet.one_page = True
     used = f"A{FIRST_ROW}:{last_column}{FIRST_ROW + case.rows}"
     sheet.rules = [
         Rule(used, f"=ISNUMBER($A{FIRST_ROW})", "ruled"),
@@ -266,37 +271,23 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
 
 def _label(sheet: SheetPlan, case: CaseSheet) -> None:
     """Add the label of the case in I1, and in I2 what the name of the sheet does not tell."""
+    s = case.suffix
     if case.resistance_given:
         label = f'=IF(inputs_from="report","{messages.AS_REPORTED}","{messages.AS_GIVEN}")'
     else:
-        # Programs write a number that is joined to a text with 15 or 17 digits; Gnumeric writes the
-        # digits of a long double, even if the number is rounded.
-        beta = f"beta{case.input_suffix}"
-        label = f'=IFERROR("β = "&ROUND({beta},6),"{messages.NO_BETA}")'
-        other = f'IF(I1="{case.label}","",IF(I1="{messages.NO_BETA}","","{messages.KEEPS_NAME}"))'
-        if case.coarse:
-            longer = f"longer{case.suffix}"
-            other = f'IFERROR(IF({longer}=0,"{messages.NOT_COARSER}",{other}),"")'
-        sheet.cells["I2"] = formula(f"{case.part}.renamed", f"={other}", "message")
-    sheet.cells["I1"] = formula(f"label{case.suffix}", label, "title", named=True)
+        label = f'=IFERROR({_beta(case)},"{messages.NO_BETA}")'
+        says = f"says_finer{s}&says_renamed{s}" if case.coarse else f"says_renamed{s}"
+        sheet.cells["I2"] = formula(f"{case.part}.renamed", f'=IFERROR({says},"")', "message")
+    sheet.cells["I1"] = formula(f"label{s}", label, "title", named=True)
 
 
-def _message(s: str) -> str:
-    """Return the formula of the state of the run; `s` is the ending of the names of its cells."""
-    sound = (
-        f'IF(reverses{s}=1,"{messages.REVERSED}",'
-        f'IF(early{s}=1,"{messages.EARLY}","{messages.COMPLETE}"))'
-    )
-    doubtful = (
-        f'IF(steps{s}=1,"{messages.ONE_STEP}",'
-        f'IF(too_long{s}=1,"{messages.COARSE}","{messages.DOUBTFUL}"))'
-    )
-    out_of_rows = f'IF(too_long{s}=1,"{messages.OUT_OF_BOTH}","{messages.OUT_OF_ROWS}")'
-    return (
-        f"=IFERROR(IF(stopped{s}=0,{out_of_rows},"
-        f'IF(no_steps{s}=1,"{messages.NO_STEPS}",'
-        f'IF(doubts{s}>0,{doubtful},{sound}))),"{messages.NO_RUN}")'
-    )
+def _beta(case: CaseSheet) -> str:
+    """Return the expression of the text that names β.
+
+    Programs write a number that is joined to a text with 15 or 17 digits; Gnumeric writes the
+    digits of a long double, even if the number is rounded.
+    """
+    return f'"β = "&ROUND(beta{case.input_suffix},6)'
 
 
 def _inputs(sheet: SheetPlan, case: CaseSheet) -> None:
@@ -332,9 +323,14 @@ def _results(sheet: SheetPlan, case: CaseSheet) -> None:
         f"rows_used{s}", "", "rows in use, with row 0", f"=IF(COUNT({a})>0,COUNT({a}),NA())",
         shown="0",
     )  # fmt: skip
+    # Without a stop, what is said of a whole run is not available.
+    of_a_run = [name for name in messages.RUN_SAYS if name not in ("both", "rows")]
+    chain = "&".join(f"says_{name}{s}" for name in of_a_run)
+    says = formula(f"says_run{s}", f'=IF(stopped{s}=1,{chain},"")', "text", named=True)
+    sheet.cells[f"N{sheet.row}"] = says
     sheet.line(
         f"stopped{s}", "", "the rows reach the stop",
-        f"=IF(INDEX({f},rows_used{s})<v_stop,1,0)", shown='"yes";;"no"',
+        f"=IF(INDEX({f},rows_used{s})<v_stop,1,0)", shown=YES_OR_NO,
     )  # fmt: skip
     sheet.line(
         f"final_depth{s}", "X", "final penetration depth",
@@ -423,8 +419,8 @@ def lines_of_depth(sheet: SheetPlan, end: str, where: str = "") -> None:
 
 
 def _state(sheet: SheetPlan, case: CaseSheet) -> None:
-    """Add what the message of the sheet depends on, one condition in each line."""
-    s, yes = case.suffix, '"yes";;"no"'
+    """Add what tells whether the run can be trusted, one condition in each line."""
+    s = case.suffix
     sheet.row += 1
     sheet.block("Can the run be trusted?")
     sheet.line(
@@ -433,14 +429,14 @@ def _state(sheet: SheetPlan, case: CaseSheet) -> None:
     sheet.line(
         f"too_long{s}", "", "the time step is too long",
         f"=IF(travel{s}-travel_most>travel_most/1000000000000,1,0)",
-        source="Δt V/R above travel_most", shown=yes,
+        source="Δt V/R above travel_most", shown=YES_OR_NO,
     )  # fmt: skip
     sheet.line(
         f"over_rest{s}", "", "depth over the depth at rest", f"=normalized_depth{s}/X_R_rest{s}"
     )
     sheet.line(
         f"too_deep{s}", "", "deeper than at rest", f"=IF(over_rest{s}>1+excess_most,1,0)",
-        source="above 1 + excess_most", shown=yes,
+        source="above 1 + excess_most", shown=YES_OR_NO,
     )  # fmt: skip
     sheet.line(
         f"over_stop{s}", "", "depth over the depth at v_stop",
@@ -449,24 +445,61 @@ def _state(sheet: SheetPlan, case: CaseSheet) -> None:
     sheet.line(
         f"off_stop{s}", "", "off the depth at v_stop",
         f"=IF(ABS(normalized_depth{s}-X_R_stop{s})>off_stop_most*X_R_stop{s},1,0)",
-        source="beyond 1 ± off_stop_most", shown=yes,
+        source="beyond 1 ± off_stop_most", shown=YES_OR_NO,
     )  # fmt: skip
-    sheet.line(f"no_steps{s}", "", "no step is taken", f"=IF(steps{s}=0,1,0)", shown=yes)
     sheet.line(
         f"doubts{s}", "", "reasons not to trust it",
-        f"=too_long{s}+too_deep{s}+off_stop{s}+no_steps{s}", shown="0",
+        f"=too_long{s}+too_deep{s}+off_stop{s}+is_no_steps{s}", shown="0",
     )  # fmt: skip
+    sheet.line(f"sound{s}", "", "no reason against it", f"=IF(doubts{s}>0,0,1)", shown=YES_OR_NO)
     sheet.line(
         f"reverses{s}", "", "the last step reverses the velocity",
-        f"=IF(final_velocity{s}<-v_stop,1,0)", source="faster than v_stop", shown=yes,
+        f"=IF(final_velocity{s}<-v_stop,1,0)", source="faster than v_stop", shown=YES_OR_NO,
     )  # fmt: skip
     sheet.line(
         f"early{s}", "", "v_stop ends it before rest", f"=IF(stop_share{s}<1-excess_most,1,0)",
-        source="share below 1 - excess_most", shown=yes,
+        source="share below 1 - excess_most", shown=YES_OR_NO,
     )  # fmt: skip
     sheet.line(
-        f"trust{s}", "", "it can be trusted", f"=IFERROR(IF(doubts{s}>0,0,1),0)", shown=yes,
+        f"trust{s}", "", "it can be trusted", f"=IFERROR(sound{s},0)", shown=YES_OR_NO,
     )  # fmt: skip
+
+
+def _said(sheet: SheetPlan, case: CaseSheet) -> None:
+    """Add the states of which one holds, each with what A3 says of it.
+
+    Without a stop, only the first two have values. The smaller of two states is 1 if both hold.
+    """
+    s = case.suffix
+    sheet.row += 1
+    sheet.block("Which one of these does A3 say?")
+
+    def state(name: str, meaning: str, expression: str) -> None:
+        sheet.state(f"{name}{s}", meaning, expression, messages.RUN_SAYS[name])
+
+    state("both", "out of rows; step too long", f"=MIN(1-stopped{s},too_long{s})")
+    state("rows", "out of rows", f"=1-stopped{s}-is_both{s}")
+    state("no_steps", "no step is taken", f"=IF(steps{s}=0,1,0)")
+    state("one_step", "doubtful: a single step", f"=IF(steps{s}=1,1-sound{s},0)")
+    more_steps = f"1-sound{s}-is_no_steps{s}-is_one_step{s}"
+    state("coarse", "doubtful: time step too long", f"=MIN({more_steps},too_long{s})")
+    state("off", "doubtful: depth is off", f"={more_steps}-is_coarse{s}")
+    state("reversed", "sound; velocity reversed", f"=MIN(sound{s},reverses{s})")
+    not_reversed = f"sound{s}-is_reversed{s}"
+    state("early", "sound; ends before rest", f"=MIN({not_reversed},early{s})")
+    state("done", "sound; complete", f"={not_reversed}-is_early{s}")
+
+
+def _renamed(sheet: SheetPlan, case: CaseSheet) -> None:
+    """Add whether β is still the one that gave the sheet its name, and what I2 says of it."""
+    s = case.suffix
+    sheet.row += 1
+    sheet.block("Is β the one of the sheet’s name?")
+    other = f'=IF({_beta(case)}="{case.label}",0,1)'
+    sheet.line(f"other_beta{s}", "", "β is another one", other, shown=YES_OR_NO)
+    # That its time step is not longer matters more.
+    renamed = f"=IF(longer{s}=1,other_beta{s},0)" if case.coarse else f"=other_beta{s}"
+    sheet.state(f"renamed{s}", "I2 says so", renamed, messages.KEEPS_NAME)
 
 
 def _comparison(sheet: SheetPlan, case: CaseSheet) -> None:
@@ -474,9 +507,9 @@ def _comparison(sheet: SheetPlan, case: CaseSheet) -> None:
     s, fine = case.suffix, f"depth_um{case.input_suffix}"
     sheet.row += 1
     sheet.block("Against the sheet with the step dt_s")
-    sheet.line(
-        f"longer{s}", "", "its time step is longer", "=IF(dt_coarse>dt_s,1,0)", shown='"yes";;"no"'
-    )
+    longer = "=IF(dt_coarse>dt_s,1,0)"
+    sheet.line(f"longer{s}", "", "its time step is longer", longer, shown=YES_OR_NO)
+    sheet.state(f"finer{s}", "it is not; I2 says so", f"=1-longer{s}", messages.NOT_COARSER)
     sheet.line(
         f"fine_depth_um{s}", "X", "final depth with dt_s", f"={fine}", "um",
         beside=f"depth-beta-{case.beta}" if case.is_reports else "",

@@ -10,7 +10,16 @@ from typing import NamedTuple
 
 from reference.ledger import INFERRED, Ledger
 from reference.units import to_si
-from spreadsheets.plan import Cell, Rule, SheetPlan, formula, printed, recorded, unit_text
+from spreadsheets.plan import (
+    YES_OR_NO,
+    Cell,
+    Rule,
+    SheetPlan,
+    formula,
+    printed,
+    recorded,
+    unit_text,
+)
 from spreadsheets.sheets import messages
 from spreadsheets.sheets.case import CaseSheet
 
@@ -172,9 +181,10 @@ pi, so it stands in a cell. The last three are limits beyond which a run is not 
 command warns beyond the same ones."""
 
 _HEADS = (
-    ("Symbol", 8), ("Quantity", 41), ("Type here", 12), ("Unit", 7), ("Check", 11), ("In use", 13),
-    ("Unit", 7), ("The report’s", 12), ("It prints", 14), ("Where", 23), ("Least", 10),
-    ("Greatest", 12), ("Name", 14),
+    ("Symbol", 8), ("Quantity", 41), ("Type here", 12), ("Unit", 7), ("Check", 10), ("In use", 13),
+    ("Unit", 7), ("The report’s", 11), ("It prints", 12), ("Where", 22), ("Least", 10),
+    ("Greatest", 12), ("Name", 14), ("Number typed", 14), ("Taken", 14), ("Below least?", 14),
+    ("Above most?", 14), ("Fault", 14), ("Accepted", 14), ("Whose", 14),
 )  # fmt: skip
 
 OF_REPORT, INFERRED_VALUE, YOURS = "the report’s", "as inferred", "yours"
@@ -192,7 +202,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
         " input that the report never prints, inferred from Table A-1."
     )
     sheet.row = 9
-    sheet.table(_HEADS, right="CFHIKL", scrolling="C")
+    sheet.table(_HEADS, right="CFHIKLNOS", scrolling="C")
     first = sheet.row
     for block, inputs in input_lines(cases, report).items():
         sheet.block(block)
@@ -221,22 +231,14 @@ def _input(ledger: Ledger, entry: InputLine, row: int) -> dict[str, Cell]:
     else:
         style, same, place = "input", OF_REPORT, str(ledger.claims[entry.source].place)
         prints = printed(ledger, entry.source, entry.unit)
-    typed, of_report, least, most = (f"{column}{row}" for column in "CHKL")
-    check = (
-        f'=IF(inputs_from="report","{same}",IF(ISNUMBER({typed}),'
-        f'IF({typed}<{least},"{TOO_SMALL}",IF({typed}>{most},"{TOO_LARGE}",'
-        f'IF({typed}={of_report},"{same}","{YOURS}"))),"{NO_NUMBER}"))'
-    )
-    in_limits = f"IF({typed}<{least},NA(),IF({typed}>{most},NA(),{typed}))"
-    in_use = f'IF(inputs_from="report",{of_report},IF(ISNUMBER({typed}),{in_limits},NA()))'
-    si, unit = in_si(in_use, entry.unit), unit_in_use(entry.unit)
+    si, unit = in_si(f"S{row}", entry.unit), unit_in_use(entry.unit)
     shown = "General" if unit == entry.unit else "0.0####E+00"
     return {
         "A": Cell(entry.symbol, "text"),
         "B": Cell(entry.meaning or ledger.title(entry.source)),
         "C": Cell(key=f"{entry.name}.typed", style=style, unit=entry.unit, limits=entry.limits),
         "D": unit_text(entry.unit),
-        "E": formula(f"{entry.name}.check", check, "text"),
+        "E": formula(f"{entry.name}.check", f"=IFERROR(T{row},R{row})", "text"),
         "F": formula(entry.name, f"={si}", named=True, unit=unit, shown=shown),
         "G": unit_text(unit),
         "H": recorded(entry.of_report(ledger)),
@@ -245,6 +247,24 @@ def _input(ledger: Ledger, entry: InputLine, row: int) -> dict[str, Cell]:
         "K": recorded(entry.limits[0]),
         "L": recorded(entry.limits[1]),
         "M": Cell(entry.name, "unit"),
+        **_checks(entry.name, same, row),
+    }
+
+
+def _checks(name: str, same: str, row: int) -> dict[str, Cell]:
+    """Return the cells by which an input is checked, one condition in each.
+
+    same: what the check says if the input is not the user's own.
+    """
+    accepted = f"=IF(O{row}<K{row},NA(),IF(O{row}>L{row},NA(),O{row}))"
+    return {
+        "N": formula(f"{name}.number", f"=IF(ISNUMBER(C{row}),C{row},NA())"),
+        "O": formula(f"{name}.taken", f'=IF(inputs_from="report",H{row},N{row})'),
+        "P": formula(f"{name}.below", f'=IF(O{row}<K{row},"{TOO_SMALL}","")', "text"),
+        "Q": formula(f"{name}.above", f'=IF(O{row}>L{row},"{TOO_LARGE}","")', "text"),
+        "R": formula(f"{name}.fault", f'=IFERROR(P{row}&Q{row},"{NO_NUMBER}")', "text"),
+        "S": formula(f"{name}.accepted", accepted),
+        "T": formula(f"{name}.whose", f'=IF(S{row}=H{row},"{same}","{YOURS}")', "text"),
     }
 
 
@@ -253,25 +273,42 @@ def _summary(sheet: SheetPlan, checks: str) -> None:
     unusable = "+".join(
         f'COUNTIF({checks},"{fault}")' for fault in (TOO_SMALL, TOO_LARGE, NO_NUMBER)
     )
-    message = (
-        f'=IF(inputs_unusable>0,"{messages.UNUSABLE}",IF(inputs_changed>0,"{messages.CHANGED}",'
-        f'IF(inputs_from="report","{messages.IGNORED}","{messages.UNCHANGED}")))'
-    )
-    no_choice = messages.NO_CHOICE
-    taken = '=IFERROR(IF(C4="report","report","yours"),"yours")'
-    choice = f'=IFERROR(IF(C4=inputs_from,"","{no_choice}"),"{no_choice}")'
+    # An error may be typed as the choice.
+    chosen, no_choice = '=IF(C4="report","report","yours")', messages.NO_CHOICE
+    unlike = f'=IF(C4=inputs_from,"","{no_choice}")'
     changed = f'=COUNTIF({checks},"{YOURS}")'
+    chain = "&".join(f"says_{name}" for name in messages.INPUTS_SAY)
     sheet.cells |= {
         "B4": Cell("Inputs to use: yours, or the report’s"),
         "C4": Cell(key="inputs.choice", style="input", choices=["yours", "report"]),
-        "F4": formula("inputs_from", taken, named=True),
-        "G4": formula("inputs.no_choice", choice, "message"),
+        "F4": formula("inputs_from", '=IFERROR(N1,"yours")', named=True),
+        "G4": formula("inputs.no_choice", f'=IFERROR(N2,"{no_choice}")', "message"),
         "B5": Cell("Inputs in use that are not the report’s"),
         "C5": formula("inputs_changed", changed, "result", named=True),
         "B6": Cell("Inputs that cannot be used"),
         "C6": formula("inputs_unusable", f"={unusable}", "result", named=True),
-        "A7": formula("inputs.message", message, "message"),
+        "A7": formula("inputs.message", f"={chain}", "message"),
+        "M1": Cell("chosen", "unit"),
+        "N1": formula("inputs.chosen", chosen, "text"),
+        "M2": Cell("no choice", "unit"),
+        "N2": formula("inputs.unlike", unlike, "text"),
+        "N3": Cell("Which one of these does A7 say?", "block"),
     }
+
+    def state(row: int, name: str, expression: str) -> None:
+        """Add whether a state holds, of which one does, and what A7 says while it holds."""
+        words = messages.INPUTS_SAY[name]
+        says = f'=IF(is_{name}=1,"{words}","")'
+        sheet.cells |= {
+            f"M{row}": Cell(name, "unit"),
+            f"N{row}": formula(f"is_{name}", expression, named=True, shown=YES_OR_NO),
+            f"O{row}": formula(f"says_{name}", says, "text", named=True),
+        }
+
+    state(4, "unusable", "=IF(inputs_unusable>0,1,0)")
+    state(5, "changed", "=IF(inputs_changed>0,1-is_unusable,0)")
+    state(6, "ignored", '=IF(inputs_from="report",1,0)')
+    state(7, "unchanged", "=1-is_unusable-is_changed-is_ignored")
 
 
 def _derived(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> None:

@@ -7,6 +7,14 @@ CHANGED = "In use: your inputs. Column E shows which of them are not the report�
 UNCHANGED = "In use: the report’s inputs."
 NO_CHOICE = "C4 must be yours or report: yours is used."
 
+INPUTS_SAY = {
+    "unusable": UNUSABLE,
+    "changed": CHANGED,
+    "ignored": IGNORED,
+    "unchanged": UNCHANGED,
+}
+"""What is said of all inputs, by the part of a defined name: `is_changed`, `says_changed`."""
+
 # About a run. `Overview` has room for 60 letters, of which β takes some.
 COMPLETE = "Complete: the velocity is below v_stop."
 EARLY = "Complete, but v_stop ends it before rest."
@@ -18,6 +26,19 @@ NO_STEPS = "NO STEPS: the impact velocity is below v_stop."
 OUT_OF_ROWS = "OUT OF ROWS: the rows end before the stop."
 OUT_OF_BOTH = "OUT OF ROWS, and the time step is too long."
 NO_RUN = "NOT COMPUTED: see Inputs, column E."
+
+RUN_SAYS = {
+    "both": OUT_OF_BOTH,
+    "rows": OUT_OF_ROWS,
+    "no_steps": NO_STEPS,
+    "one_step": ONE_STEP,
+    "coarse": COARSE,
+    "off": DOUBTFUL,
+    "reversed": REVERSED,
+    "early": EARLY,
+    "done": COMPLETE,
+}
+"""What is said of a run, by the part of a defined name: `is_early`, `says_early`."""
 
 # About the name of a sheet.
 AS_GIVEN = "R_t as given"

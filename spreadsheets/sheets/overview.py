@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from importlib.metadata import version
 from itertools import zip_longest
 from textwrap import wrap
 
@@ -21,7 +20,12 @@ from spreadsheets.plan import (
 from spreadsheets.sheets.audit import LIVE_VERDICTS, AuditResult
 from spreadsheets.sheets.case import CaseSheet
 
-PROGRAM = f"coldspray {version('coldspray')}"
+
+def program() -> str:
+    """Return the name and the version of the program that writes the workbook."""
+    from importlib.metadata import version  # here, as it loads Python's parts for e-mail
+
+    return f"coldspray {version('coldspray')}"
 
 
 def overview(
@@ -34,10 +38,10 @@ def overview(
     """
     report, scheme = ledger.report, pages[0].scheme
     sheet = SheetPlan(ledger=ledger, name=HOME, portrait=True, one_page=True)
-    sheet.widths = {"A": 36, "B": 15.5, "C": 15.5, "D": 10, "E": 14.5, "F": 10, "G": 48}
+    sheet.widths = {"A": 33, "B": 15, "C": 15, "D": 9, "E": 14.5, "F": 9, "G": 47}
     sheet.put(A=Cell(title_of(ledger), "title"))
     sheet.say(
-        f"After the report by {report.author} ({report.year}). Written by {PROGRAM}; {scheme}"
+        f"After the report by {report.author} ({report.year}). Written by {program()}; {scheme}"
         f" scheme: the drag is taken at the {scheme.drag_at} velocity of a row.",
         style="body",
     )
@@ -117,7 +121,7 @@ def _figure(sheet: SheetPlan, sheets: Sequence[SheetPlan]) -> None:
     (chart,) = (page.chart for page in sheets if page.chart and page.name == "Figure 3")
     height = int(_FIGURE_ROWS * ROW_HEIGHT * 96 / 72) - 5
     sheet.row += 1
-    sheet.chart = replace(chart, at=f"A{sheet.row}", size=(1060, height))
+    sheet.chart = replace(chart, at=f"A{sheet.row}", size=(1030, height))
     sheet.row += _FIGURE_ROWS
 
 

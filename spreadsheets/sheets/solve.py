@@ -5,6 +5,7 @@ from collections.abc import Sequence
 from reference.ledger import Ledger
 from spreadsheets.plan import (
     LINE_HEADS,
+    YES_OR_NO,
     Cell,
     Rule,
     SheetPlan,
@@ -50,6 +51,7 @@ def solve(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
     for case in cases:
         _other_inputs(sheet, case)
     _back_again(sheet)
+    _said(sheet)
     sheet.print_area = f"A1:F{sheet.row - 1}"
     return sheet
 
@@ -63,15 +65,13 @@ def _measured(sheet: SheetPlan) -> None:
     depth_row, ratio_row = sheet.row, sheet.row + 1
     _typed(sheet, "depth", "X", "measured depth", "um", DEPTH_LIMITS)
     _typed(sheet, "ratio", "X/R", "or measured depth over radius; may be blank", "1", RATIO_LIMITS)
-    taken = f'IF(by_ratio=1,"{messages.BY_RATIO}","{messages.BY_DEPTH}")'
-    message = f'=IFERROR(IF(L_meas<L_most,{taken},"{messages.TOO_DEEP}"),"{messages.NOT_SOLVED}")'
+    says = "says_for_depth&says_for_ratio&says_too_deep"
+    message = f'=IFERROR({says},"{messages.NOT_SOLVED}")'
     sheet.rules = [Rule(f"A{sheet.row}", "=ISERROR(p_meas)", "warning")]
     sheet.put(A=formula("solve.message", message, "message"))
     sheet.row += 1
     sheet.block("The crater of this depth")
-    sheet.line(
-        "by_ratio", "", "X/R is typed", f"=IF(ISNUMBER(C{ratio_row}),1,0)", shown='"yes";;"no"'
-    )
+    sheet.line("by_ratio", "", "X/R is typed", f"=IF(ISNUMBER(C{ratio_row}),1,0)", shown=YES_OR_NO)
     sheet.line(
         "y_meas", "y", "normalized depth X/R",
         f"=IF(by_ratio=1,I{ratio_row},I{depth_row}/1000000/R_p)",
@@ -180,3 +180,17 @@ def _back_again(sheet: SheetPlan) -> None:
         "X_back_um", "X", "penetration depth", "=X_R_back*R_p*1000000", "um",
         source="R times the line above",
     )  # fmt: skip
+
+
+def _said(sheet: SheetPlan) -> None:
+    """Add the states of which one holds, each with what the message of the sheet says of it."""
+    sheet.row += 1
+    sheet.block("Which one of these does the message above say?")
+    sheet.line(
+        "solved", "", "a resistance gives this depth", "=IF(L_meas<L_most,1,0)", shown=YES_OR_NO,
+        source="L below L_most",
+    )  # fmt: skip
+    # The smaller of two states is 1 if both hold.
+    sheet.state("for_ratio", "solved for X/R", "=MIN(solved,by_ratio)", messages.BY_RATIO)
+    sheet.state("for_depth", "solved for the depth", "=solved-is_for_ratio", messages.BY_DEPTH)
+    sheet.state("too_deep", "too deep for any resistance", "=1-solved", messages.TOO_DEEP)

@@ -137,6 +137,14 @@ def test_a_target_without_density_limits_the_depth(
     assert (ends is not None and ends[0] == 0) == some
 
 
+def test_the_mean_exponential_of_zero_is_one_and_none_is_less() -> None:
+    """(e^x - 1)/x rises from 1 at x = 0: so 1 has the root 0, and a number below it has none."""
+    reals = Reals(60)
+    assert abs(reals.exp_mean_root(reals.number(1))) < 1e-55
+    with pytest.raises(NoRootError):
+        reals.exp_mean_root(reals.number(1 - F(1, 10**50)))
+
+
 @pytest.mark.parametrize("k", [F(1) + F(1, 10**12), F(3, 2), F(10), F(10) ** 60])
 def test_the_root_of_a_mean_exponential(k: F) -> None:
     """Lambert's function and the verified interval agree; the slope is a difference quotient."""

@@ -168,9 +168,22 @@ def test_bad_elements_are_named_by_index(name: str) -> None:
             values[place] = [[values[place], bad]]
             with pytest.raises(ValueError, match=rf"^{argument}\[0, 1\] is {bad}: it must be a"):
                 function(*values)
+            lines = [
+                np.full(3, value) for value in FUNCTIONS[name]
+            ]  # these take a path of their own
+            lines[place][2] = bad
+            with pytest.raises(ValueError, match=rf"^{argument}\[2\] is {bad}: it must be a"):
+                function(*lines)
             values[place] = bad
             with pytest.raises(ValueError, match=rf"^{argument} is {bad}: it must be a finite"):
                 function(*values)
+
+
+def test_a_bad_element_of_long_lines_is_named_by_index() -> None:
+    lines = [np.full(500_000, value) for value in CASE]  # shared among the cores
+    lines[2][400_000] = lines[4][300_000] = -1.0
+    with pytest.raises(ValueError, match=r"^resistance\[300000\] is -1.0: it must be a finite"):
+        arrays.final_depth(*lines)
 
 
 INPUT = st.one_of(*(st.floats(-p, p).map(lambda power: 10.0**power) for p in (40, 300)))
@@ -189,6 +202,7 @@ def test_arrays_accept_the_same_range_as_a_single_impact(case: tuple[float, ...]
     first = refused(lambda: impact_of(*case, step=1.0))
     assert first == refused(lambda: arrays.final_depth(*case))
     assert first == refused(lambda: arrays.final_depth([case[0]], *case[1:]))
+    assert first == refused(lambda: arrays.final_depth(*(np.array([value]) for value in case)))
     if all(1e-40 <= value <= 1e40 for value in case):
         assert not first
 

@@ -197,21 +197,53 @@ def test_the_table_of_two_made_up_runs() -> None:
         point(1e-17, 5e-5, "Taylor series"),  # as good as the closed form: less is luck
         point(1e-15, 2e-4, "Taylor series", **history),
         point(1e-16, 1e-7, "closed form, many", cases=10),
-        point(2e-9, 4e-3, "DOP853", setting="rtol 1e-08"),
         point(2e-7, 3e-3, "DOP853", **coarse),
         point(1.0, 1.0, "DOP853") | gap | coarse | history,
+        point(2e-9, 4e-3, "DOP853", setting="rtol 1e-08"),
+        point(3e-7, 2e-4, "DOP853", setting="rtol 1e-08", measure="history"),
         point(8e-6, 4e-5, "RK4", **history),
     ]
     measure.mark_front(points)
     rows = [measure.fastest(points, *asked) for asked in product((False, True), MEASURES, DIGITS)]
     case = {"name": "beta-5", "depth": 7.67e-6, "points": points, "fastest": rows}
     machine = {"processor": "abacus", "cores": 1}
-    run = {"machine": machine, "repeat": 7, "limit": 5.0, "cases": [case]}
+    settings = [
+        measure.loosest([points], "DOP853", name, digits)
+        for name, digits in product(MEASURES, (4, 6, 8))
+    ]
+    run = {"machine": machine, "repeat": 7, "limit": 5.0, "cases": [case], "settings": settings}
     another = case | {"name": "beta-3", "fastest": [dict(row) for row in case["fastest"]]}
     another["fastest"][0] |= {"method": "RK4, 100 steps", "best": 1e-6}
     runs = (run, run | {"repeat": 1, "cases": [case, another]})
     told = "\n".join(texts(record)["bench.txt"] for record in runs)
     assert told == Path(__file__).with_name("bench.txt").read_text("utf-8")
+
+
+@pytest.mark.parametrize(
+    ("digits", "expected"),
+    [
+        (4, ("1e-4", 3e-4)),  # at once in the first case, and just so in the second
+        (6, ("1e-6", 5e-4)),
+        (8, ("1e-12", 9e-4)),  # the second case is a gap at 1e-8, which gives no digits
+        (10, (None, None)),
+    ],
+)
+def test_the_loosest_setting_gives_the_digits_in_every_case(
+    digits: int, expected: tuple[str | None, float | None]
+) -> None:
+    settings = ("1e-4", "1e-6", "1e-8", "1e-12")
+    other = point(1e-15, 1e-6, "other", setting="1e-4")
+    first, second = (
+        [other, *(point(error, time, "solver", setting=setting)
+                  for setting, error, time in zip(settings, errors, times, strict=True))]
+        for errors, times in (
+            ((1e-9, 1e-9, 1e-10, 1e-12), (1e-4, 2e-4, 3e-4, 4e-4)),
+            ((5e-5, 4e-7, 1e-9, 3e-10), (3e-4, 5e-4, 7e-4, 9e-4)),
+        )
+    )  # fmt: skip
+    second[3] |= {"gap": "takes 7 s", "error": None, "best": None}
+    answer = measure.loosest([first, second], "solver", "depth", digits)
+    assert (answer["setting"], answer["best"]) == expected
 
 
 def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path) -> None:
@@ -221,7 +253,8 @@ def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path) -> None:
     )
     assert (status, err) == (0, "")
     record = json.loads(out)
-    assert list(record) == ["machine", "repeat", "limit", "cases"]
+    assert list(record) == ["machine", "repeat", "limit", "cases", "settings"]
+    assert len(record["settings"]) == 9 * 2 * 5  # solvers, quantities, numbers of digits
     assert {"processor", "cores", "system", "python", "numpy", "numba"} <= set(record["machine"])
     (case,) = record["cases"]
     assert list(case) == ["name", "inputs", "depth", "times", "points", "fastest"]

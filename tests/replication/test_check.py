@@ -47,15 +47,10 @@ def says(truth: Truth, path: Path, book: Foreign, **given: str) -> None:
 
 NOT_FOUND = {
     "depths that fall, under a head in an unknown language": "tables are sought where depths grow",
-    "a radius in another unit, converted": "CONVERT is not computed",
-    "diameter of a blank cell, the radius computed": "a radius of 0 is no impact: status 2",
     "Tabelle1!G4, Tabelle1!D35, Tabelle1!D59 of random-117": "another of the three is first",
     "Sheet!C14, Sheet!C4, Sheet!E46 of merged-heads": "another of the three is first",
-    "the first row's formula filled down": "no table is found, as depths do not grow row by row",
-    "a depth of velocity times time": "no table is found, as depths do not grow row by row",
     "what is called final depth, but is not": "a depth between two rows may be meant",
     "densities in two units, the mass by the wrong one": "nothing reads the right density",
-    "the impact velocity in a column of forces, from the middle on": "blamed at its start",
 }
 """What `docs/check.md` lists as not found, or not in the right place, with the reason."""
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from replication.cases import BETA_3, BETA_5
-from replication.check.show import check_record, text
-from replication.check.workbook import check
+from replication.check.show import check_record, check_text
+from replication.check.workbook import check_workbook
 from replication.models.impact import Impact
 from replication.models.sheet import run
 
@@ -55,7 +55,7 @@ def told(content: str | bytes, folder: Path, suffix: str = ".csv") -> str:
     """The line and column of the first difference, with its kind; or "clean"."""
     path = folder / f"mine{suffix}"
     path.write_bytes(content if isinstance(content, bytes) else content.encode())
-    first = check_record(check(path))["first"]
+    first = check_record(check_workbook(path))["first"]
     return f"{first['where']}: {first['kind']}" if first else "clean"
 
 
@@ -170,7 +170,7 @@ def test_another_scheme_is_named_with_its_first_row(
         line += next(k for k, row in enumerate(rows) if (row[2] or 0.0) > impact.radius * 1e6)
     path = tmp_path / "mine.csv"
     path.write_text(csv(rows, form=form))
-    first = check_record(check(path))["first"]
+    first = check_record(check_workbook(path))["first"]
     assert (first["kind"], first["where"].split(",")[0]) == ("other scheme", f"line {line}")
     assert words in first["explanation"]
 
@@ -183,14 +183,14 @@ def test_every_place_in_a_text_file_is_where(tmp_path: Path) -> None:
     """Of a difference, a column, and a printed number of the report that the rows hold."""
     path = tmp_path / "mine.csv"
     path.write_text(csv(scheme(BETA_5, centered=True)))
-    record = check_record(check(path))
+    record = check_record(check_workbook(path))
     columns = record["taken"][0]["columns"].values()
     for entry in [*record["differences"], *columns, *record["claims"]]:
         assert re.search(r"\bline", entry["where"]), entry
     assert record["claims"]
     assert all("line" not in claim for claim in record["claims"])
-    assert max(map(len, text(record).splitlines())) > 80
-    assert max(map(len, text(record, 80).splitlines())) <= 80
+    assert max(map(len, check_text(record).splitlines())) > 80
+    assert max(map(len, check_text(record, 80).splitlines())) <= 80
 
 
 @pytest.mark.parametrize(("content", "message"), [
@@ -213,7 +213,7 @@ def test_text_and_json_name_lines_and_cells(tmp_path: Path) -> None:
     rows[40][2] = 3.8
     path = tmp_path / "mine.csv"
     path.write_text(csv(rows, SHORT))
-    record = check_record(check(path))
+    record = check_record(check_workbook(path))
     assert (record["first"]["sheet"], record["first"]["cell"]) == ("mine", "C42")
-    assert "  line 42, column 'depth [um]', typed number" in text(record)
-    assert "column 'velocity [m/s]', lines 2 to 133" in text(record)
+    assert "  line 42, column 'depth [um]', typed number" in check_text(record)
+    assert "column 'velocity [m/s]', lines 2 to 133" in check_text(record)

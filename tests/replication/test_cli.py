@@ -422,7 +422,7 @@ def test_it_writes_over_its_own_file_only(run: Run, tmp_path: Path) -> None:
     assert rewritten(whole, lambda _, part: part) == whole  # so only the seal can tell
     for content in (
         rewritten(whole, lambda _, part: part.replace(b"<v>2.0</v>", b"<v>2.1</v>")),
-        rewritten(whole, lambda _, part: part.replace(b'width="5.7', b'width="6.7')),
+        rewritten(whole, lambda _, part: part.replace(b'width="8.7', b'width="9.7')),
         rewritten(whole, lambda _, part: part.replace(b"coldspray-sha256", b"coldspray-sha257")),
         whole[: len(whole) // 2],
         b"notes",

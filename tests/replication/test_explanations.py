@@ -23,6 +23,7 @@ from replication.audit.record import Record
 from replication.audit.rewritings import number_rewritings, rewritings_of
 from replication.audit.verdict import Judge, assess_equation, disagreeing, follows
 from replication.power import (
+    NotFirst,
     Plant,
     PlantCounts,
     Power,
@@ -116,7 +117,7 @@ def test_edits_of_an_equation() -> None:
 @pytest.mark.parametrize(
     ("name", "text", "failing", "repairs"),
     [
-        ("a1-radius", "1.01E-05", "a1-mass", ["a1-radius: 1.1E-05", "a1-radius: 1.10E-05"]),
+        ("a1-radius", "1.01E-05", "a1-mass", ["a1-radius: 1.10E-05", "a1-radius: 1.1E-05"]),
         (
             "observed-depth-ratio", "0.289", "observed-depth-ratio",
             ["observed-depth-ratio: 0.298"],
@@ -274,7 +275,7 @@ def test_every_number_and_every_equation_gets_misprints() -> None:
         ("autodyne-time", "41", set()),
         ("strength-multiple", "four", {"strength-multiple"}),
         ("copper-yield-bound", "80", {"copper-yield-bound"}),
-        ("observed-depth-ratio", "0.277", {"frank-zook-below-observed", "observed-depth-ratio"}),
+        ("observed-depth-ratio", "0.277", {"observed-depth-ratio"}),
         ("sphere-length-ratio", "1/2", {"sphere-length-ratio"}),
         (
             "initial-depth", "1",
@@ -293,17 +294,68 @@ def test_every_number_and_every_equation_gets_misprints() -> None:
 def test_a_planted_misprint_is_noticed_where_it_should_be(
     name: str, text: str, failing: set[str]
 ) -> None:
-    noticed, counts = judge_misprint(TRUTH, Plant(name, LEDGER.printed_text(name), text, ""))
-    assert noticed == failing
-    assert counts.visible == bool(failing)
+    outcome = judge_misprint(TRUTH, Plant(name, LEDGER.printed_text(name), text, ""))
+    assert outcome.failing == failing
+    assert outcome.counts.visible == bool(failing)
 
 
 @pytest.mark.parametrize("symbol", [r"\pi", r"\beta", r"\alpha", "k_t", "k_1"])
 def test_an_exponent_that_is_no_number_is_a_failure_and_ends_nothing(symbol: str) -> None:
     plant = Plant("eq8", LEDGER.printed_text("eq8"), f"F_r = q (2a)^{symbol}", "symbol changed")
-    failing, counts = judge_misprint(TRUTH, plant)
-    assert "goodier-beta" in failing
-    assert counts.repaired_first
+    outcome = judge_misprint(TRUTH, plant)
+    assert "goodier-beta" in outcome.failing
+    assert outcome.counts.repaired_first
+    assert outcome.why == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        pytest.param("a1-velocity-final-2", "5.40E+02", id="all cells have three digits: not 5.0"),
+        pytest.param("a1-time-2", "4.080E-10", id="all cells have three digits: not 4.000"),
+        pytest.param("eq6-factor", r"\frac{1}{26}", id="constants have one digit: not 13/26"),
+        pytest.param("autodyne-diameter", "160", id="one of two numbers is round"),
+        pytest.param("elastic-modulus", "202", id="a public source prints it"),
+        pytest.param("eq6-factor", r"\frac{4}{2}", id="Eqs. 13 and A-1 follow from Eq. 6"),
+        pytest.param("strain-rate", "10^8", id="10^-8 is farther away than 10^7"),
+        pytest.param("outlier-volume", "17500", id="no particle of the data is as small as 1500"),
+        pytest.param("autodyne-steel-yield", "3400", id="a source prints it to one digit"),
+    ],
+)
+def test_the_true_text_is_the_first_repair(name: str, text: str) -> None:
+    outcome = judge_misprint(TRUTH, Plant(name, LEDGER.printed_text(name), text, ""))
+    assert outcome.first is not None
+    assert (outcome.first.entry, outcome.first.text) == (name, LEDGER.printed_text(name))
+    assert outcome.why == ""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "why"),
+    [
+        (
+            "eq16-offset", "4",
+            "the equation fails in the true report, too, and no edit mends both faults",
+        ),
+        ("eq9", r"F_r = \pi a^ R_t", "no listed edit gives the true text"),  # none adds a number
+        # 2.717 gives the printed beta, too, and may have been typed with its digits swapped.
+        ("goodier-q", "2.177", "another text of the same entry agrees as well"),
+        # One number word repeats the other, and nothing says which of them is right.
+        (
+            "figure-1-exceptions", "three",
+            "two entries disagree, and the other one is taken for wrong",
+        ),
+    ],
+)  # fmt: skip
+def test_why_a_true_text_is_not_the_first_repair(name: str, text: str, why: str) -> None:
+    assert judge_misprint(TRUTH, Plant(name, LEDGER.printed_text(name), text, "")).why == why
+
+
+def test_reasons_are_counted() -> None:
+    part = {"true": "", "text": "", "edit": "", "first_entry": "", "first_text": ""}
+    entries = [("a", "x"), ("b", "y"), ("c", "y"), ("c", "y")]
+    missed = [NotFirst(entry=entry, why=why, **part) for entry, why in entries]
+    rows = Power(seed=1, visible=9, not_first=missed).reasons().rows
+    assert rows == [("y", "3 of 9", "`c` (2 times), `b`"), ("x", "1 of 9", "`a`")]
 
 
 # Controls: the same number or equation in other words
@@ -392,8 +444,7 @@ def test_a_cross_check_reads_what_it_is_said_to_be_compared_with(name: str) -> N
 
 def test_what_a_number_is_compared_with_may_change_its_verdict() -> None:
     wrong = Plant("a1-radius", "1.10E-05", "21.10E-05", "digit inserted")
-    failing, _ = judge_misprint(TRUTH, wrong)
-    assert "autodyne-time" in failing
+    assert "autodyne-time" in judge_misprint(TRUTH, wrong).failing
 
 
 @pytest.mark.slow
@@ -411,6 +462,6 @@ def test_the_rates_on_the_page_are_measured_again() -> None:
 def test_judging_what_depends_on_a_plant_is_judging_everything() -> None:
     """Of 50 plants none makes a claim or an equation fail that does not depend on it."""
     for plant in random.Random(3).sample(EVERYTHING, 50):
-        failing, _ = judge_misprint(TRUTH, plant)
+        failing = judge_misprint(TRUTH, plant).failing
         audit = Audit(LEDGER.misprint(plant.entry, plant.text), every_convention=False)
         assert new_failures(TRUTH, audit, LEDGER.claims, LEDGER.equations) == failing, plant

@@ -1,6 +1,7 @@
 """Every finding: its numbers hold, its words are the report's, and a misprint takes it away."""
 
 import re
+from math import exp, log, pi, sqrt
 
 import pytest
 
@@ -128,6 +129,87 @@ def test_every_number_in_a_statement_is_evidence_or_printed(
 )
 def test_evidence_holds_only_as_its_text_says(number: Evidence, holds: bool) -> None:
     assert number.holds is holds
+
+
+RHO, KSI = 7850, 6894757.293168
+Z = 1.046 * RHO * 500**2
+"""k_t rho_t V^2 of Eq. 16 [Pa]."""
+COPPER_FAST = (90e6 + 292e6) * (1 + 0.025 * log(1e7))
+"""Johnson and Cook's flow stress of copper at strain 1 and 10^7 per second [Pa]."""
+
+
+def apart(length_ratio: float, R_t: float, k_t: float = 1.046) -> float:
+    """X/R from Eqs. 14 and 15, written down here once more; k_t divides the bracket."""
+    return (length_ratio * 8900 / RHO + 0.557) / k_t * log(1 + Z / R_t)
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "value"),
+    [
+        ("frank-zook-pair", "nominal", log(1 + Z / 7.6e9) / log(1 + Z / 9.13e9) - 1),
+        ("frank-zook-values", "multiplied", apart(2 / 3, 9.13e9, 1 / 1.046)),
+        ("frank-zook-values", "multiplied_other", apart(2 / 3, 7.6e9, 1 / 1.046)),
+        ("frank-zook-values", "on_k_1",
+         (2 / 3 + 0.557 * 8900 / RHO) / 1.046 * log(1 + Z / 7.6e9)),
+        ("sphere-equivalent", "equal_rha", apart(1, 9.13e9) * (2 / 3) ** (1 / 3)),
+        ("sphere-equivalent", "equal_stainless", apart(1, 7.6e9) * (2 / 3) ** (1 / 3)),
+        ("sphere-equivalent", "long_rha", apart(1, 9.13e9)),
+        ("sphere-equivalent", "long_stainless", apart(1, 7.6e9)),
+        ("no-penetration", "stress", 8900 * 500**2 / 2 + 90e6),
+        ("no-penetration", "threshold_3", sqrt(2 * (2.1e9 - 90e6) / 8900)),
+        ("no-penetration", "threshold_5", sqrt(2 * (3.5e9 - 90e6) / 8900)),
+        ("no-penetration", "fast_3", sqrt(2 * (2.1e9 - COPPER_FAST) / 8900)),
+        ("no-penetration", "fast_5", sqrt(2 * (3.5e9 - COPPER_FAST) / 8900)),
+        ("energy-balance", "share_3", 0.06 * 2.1e9 / (8900 * 500**2 / 2)),
+        ("energy-balance", "share_5", 0.06 * 3.5e9 / (8900 * 500**2 / 2)),
+        ("hardness-again", "least", 3 * 98 * KSI),
+        ("hardness-again", "greatest", 3 * 110 * KSI),
+        ("hardness-again", "above_it", 3.5e9 / (3 * 110 * KSI)),
+        ("half-buried", "velocity", sqrt(2 * 3.5e9 / RHO * (exp(RHO / (2 * 8900)) - 1))),
+        ("equation-1-scatter", "drag_mean", 0.5 * 5.6 / 22 * 500 * sqrt(2 / pi)),
+        ("cth-pressure", "time", 12.5e-6 * 500 / (2 * (4569 + 1.490 * 248.3) ** 2)),
+        ("cth-pressure", "edge", 12.5e-6 * 500 / (4569 + 1.490 * 248.3)),
+    ],
+)  # fmt: skip
+def test_numbers_of_findings_computed_apart(
+    name: str, number: str, value: float, made: dict[str, Finding]
+) -> None:
+    (piece,) = (piece for piece in made[name].evidence if piece.name == number)
+    computed = piece.computed * float(to_si(piece.unit))
+    assert computed == pytest.approx(value, rel=1e-3 if name == "cth-pressure" else 1e-12)
+
+
+def test_the_velocity_below_which_the_pair_is_impossible(made: dict[str, Finding]) -> None:
+    """Both R_t and k_t rounded: at the limit the least rise is the greatest that prints so."""
+    (limit,) = (p.computed for p in made["frank-zook-pair"].evidence if p.name == "limit")
+    drags = (1.0465 * RHO * velocity**2 for velocity in (limit - 0.01, limit + 0.01))
+    slower, faster = (log(1 + z / 7.65e9) / log(1 + z / 9.125e9) for z in drags)
+    assert faster < 0.2975 / 0.2775 < slower
+
+
+def test_multiplied_by_k_t_it_prints_0278_for_all_that_the_printed_mass_admits() -> None:
+    header = (2 / 3 * 8900, 0.557 * 1.046)
+    for density, prints_so in ((7825.1, True), (7848.9, True), (7849.72, True), (7849.73, False)):
+        value = (header[0] / density * 1.046 + header[1]) * log(
+            1 + 1.046 * density * 500**2 / 9.13e9
+        )
+        assert (0.2775 <= value < 0.2785) == prints_so
+
+
+@pytest.mark.parametrize(
+    ("claim", "figures"),
+    [
+        ("outlier-volume", [f"{(6 * 7500 / pi) ** (1 / 3):.1f} µm"]),
+        ("autodyne-time", [f"{40e3 * 22 / 10_000:.0f} ns", f"{88 / 26.079:.1f} times"]),
+        ("brinell-ratio", [f"{123 * 9.80665 / 505:.2f}", f"{9.80665 / 3.5:.1f} to",
+                           f"{9.80665e6 / (500 * KSI / 1000):.2f}, which rounds"]),
+    ],
+)  # fmt: skip
+def test_what_can_be_compared_is_computed_apart(
+    claim: str, figures: list[str], audit: Audit
+) -> None:
+    explanation = audit.claim(claim).explanation
+    assert [figure for figure in figures if figure not in explanation] == []
 
 
 MISPRINTS = [

@@ -109,7 +109,10 @@ radius = {from = "1 um", to = "11 um", points = 200}
 def test_a_signal_at_any_moment_of_a_run_that_compiles_ends_it(
     arguments: list[str], number: int, tmp_path: Path
 ) -> None:
-    """The cache of compiled code is empty. The signals come when the imports are over."""
+    """The cache of compiled code is empty.
+
+    On a busy machine a signal may still come before the program awaits it, and then kills it.
+    """
     chance = random.Random(f"{arguments[0]} {number}")
     for turn in range(4):
         folder = tmp_path / str(turn)
@@ -129,6 +132,8 @@ def test_a_signal_at_any_moment_of_a_run_that_compiles_ends_it(
         left = {path.name for path in folder.iterdir()}
         if running.returncode == 0:  # it was done before
             assert errors == ""
+        elif running.returncode == -number:
+            assert (errors, left) == ("", {"plan.toml"})
         else:
             assert running.returncode == 128 + number
             assert re.fullmatch(r"coldspray( \w+)?: interrupted; no file is left in part\n", errors)

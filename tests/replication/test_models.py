@@ -222,6 +222,15 @@ def test_histories_go_on_until_rest(case: tuple[float, ...], shares: list[float]
     assert history([0.0, stop], *case) == ([0.0, final], [case[0], 0.0])
 
 
+@pytest.mark.parametrize("velocity", [800.0, 900.0, 1000.0, 1500.0, 2000.0])
+def test_at_the_time_of_the_radius_the_depth_is_the_radius(velocity: float) -> None:
+    """Two formulas meet at that time: the sum of a series before it, a closed form from it on."""
+    case = (velocity, 1.1e-5, 8900.0, 7850.0, 3.5e9)
+    (depth,), (speed,) = history([time_to_depth(1.1e-5, *case)], *case)
+    assert depth == approx(1.1e-5, rel=1e-13)
+    assert speed == approx(velocity_at_depth(1.1e-5, *case), rel=1e-13)
+
+
 @pytest.mark.parametrize("crossing", [1 - 1e-9, 1 - 1e-15, 1.0, 1 + 1e-15, 1 + 1e-9, 1.5])
 def test_motions_that_end_near_the_radius(crossing: float) -> None:
     # Choose the resistance, to a relative 1e-14, so that the particle rests at y = crossing.
@@ -354,6 +363,15 @@ def test_the_closed_form_is_within_4_ulp_in_hard_cases_and_the_measure_sees_one_
         )
         # An ulp doubles at powers of two.
         assert hard_cases.outcome(name)["ulps"] - ulps == pytest.approx(1, abs=0.51)
+
+
+def test_the_worst_random_case_is_found_by_fewer_digits() -> None:
+    """Which case is the worst is seen by a measure that is right to a millionth of an ulp."""
+    worst = hard_cases.worst_of(3000, seed=2)
+    errors = [
+        hard_cases._ulps(final_depth(**case), case) for case in hard_cases.random_cases(3000, 2)
+    ]
+    assert worst["ulps"] == max(errors, key=abs)
 
 
 def test_the_closed_form_is_within_4_ulp_in_a_hundred_thousand_cases() -> None:

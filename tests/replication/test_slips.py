@@ -1,6 +1,7 @@
 """The family of slips in Eq. 16: generated from parts, counted, and compared with chance."""
 
 from collections import Counter
+from itertools import product
 from math import log, log10
 
 import pytest
@@ -8,25 +9,27 @@ import pytest
 from reference.ledger import load
 from replication.audit.results import Results
 from replication.audit.slips import (
-    BRACKETS,
-    DIVISORS,
-    EXCHANGES,
-    JOINS,
-    LOGARITHMS,
-    SCALES,
+    TYPED,
     Eq16Inputs,
     Member,
     base_10,
-    bracket,
     densities_exchanged,
+    density_ratio_inverted,
     density_ratio_on_k_1,
     depth_with_slips,
-    divisor,
+    divisor_left_out,
     doubled,
+    drag_inverted,
     family,
-    logarithm,
+    half_for_k_t,
+    k_1_doubled,
+    k_1_subtracted,
+    length_ratio_inverted,
     multiplied_by_k_t,
     numbers_named,
+    one_left_out,
+    one_minus,
+    sum_without_brackets,
 )
 
 LEDGER = load()
@@ -36,14 +39,12 @@ X = Eq16Inputs(L_D=2 / 3, rho_p=8900.0, rho_t=7850.0, k_1=0.557, k_t=1.046, V=50
 Y = Eq16Inputs(L_D=2 / 3, rho_p=8900.0, rho_t=7850.0, k_1=0.557, k_t=1.046, V=500.0, R_t=7.6e9)
 SUM = 2 / 3 * 8900 / 7850 + 0.557
 LN_ARMOR, LN_STEEL = (log(1 + 1.046 * 7850 * 500**2 / R_t) for R_t in (9.13e9, 7.6e9))
-SLIPS = [*BRACKETS, *DIVISORS, *LOGARITHMS, *JOINS, *SCALES, *EXCHANGES]
 
 
 def test_without_a_slip_it_is_eq_16_as_printed() -> None:
     z = 1.046 * 7850 * 500**2 / 9.13e9
     printed = (2 / 3 * 8900 / 7850 + 0.557) / (2 * 1.046) * log(1 + z)
     assert depth_with_slips(X, ()) == pytest.approx(printed, rel=1e-14, abs=0)
-    assert bracket(X) / divisor(X) * logarithm(X) == depth_with_slips(X, ())
 
 
 @pytest.mark.parametrize(
@@ -55,6 +56,15 @@ def test_without_a_slip_it_is_eq_16_as_printed() -> None:
         ((density_ratio_on_k_1, doubled), Y, (2 / 3 + 0.557 * 8900 / 7850) / 1.046 * LN_STEEL),
         ((density_ratio_on_k_1, doubled), X, (2 / 3 + 0.557 * 8900 / 7850) / 1.046 * LN_ARMOR),
         ((base_10,), X, SUM / 2.092 * LN_ARMOR / log(10)),
+        ((density_ratio_inverted, k_1_doubled), X,
+         (2 / 3 * 7850 / 8900 + 1.114) / 2.092 * LN_ARMOR),
+        ((length_ratio_inverted, k_1_subtracted), X,
+         (1.5 * 8900 / 7850 - 0.557) / 2.092 * LN_ARMOR),
+        ((multiplied_by_k_t, half_for_k_t), X, SUM / (2 / 0.5) * LN_ARMOR),
+        ((drag_inverted, one_left_out), X, SUM / 2.092 * log(9.13e9 / (1.046 * 7850 * 500**2))),
+        ((one_minus,), X, SUM / 2.092 * -log(1 - 1.046 * 7850 * 500**2 / 9.13e9)),
+        ((sum_without_brackets, k_1_subtracted), X,
+         2 / 3 * 8900 / 7850 - 0.557 / 2.092 * LN_ARMOR),
     ],
     ids=[
         "no brackets, doubled",
@@ -63,24 +73,30 @@ def test_without_a_slip_it_is_eq_16_as_printed() -> None:
         "on k_1, steel",
         "on k_1",
         "LOG",
+        "two in the bracket",
+        "two others in the bracket",
+        "two in the divisor",
+        "two in the logarithm",
+        "a sign dropped",
+        "a sum without brackets subtracted",
     ],
-)
+)  # fmt: skip
 def test_slips_computed_apart(member: Member, inputs: Eq16Inputs, value: float) -> None:
     assert depth_with_slips(inputs, member) == pytest.approx(value, rel=1e-14, abs=0)
 
 
-def test_every_slip_changes_the_value_and_no_two_do_it_alike() -> None:
-    values = Counter(
-        round(depth_with_slips(X, (slip,)), 12) for slip in SLIPS if slip.says != "1 - for 1 +"
-    )
+def test_every_slip_changes_the_value_and_only_two_do_it_alike() -> None:
+    values = Counter(round(depth_with_slips(X, (slip,)), 12) for slip in TYPED)
     assert round(depth_with_slips(X, ()), 12) not in values
-    alike = [value for value, count in values.items() if count > 1]
-    # "no divisor" is 1, as 1/2 for k_t makes it, and the printed one is 2: these are one value.
-    assert len(alike) <= 2
+    # With 1/2 for k_t the divisor is 1, as if there were none.
+    assert sum(values.values()) - len(values) == 1
+    assert depth_with_slips(X, (half_for_k_t,)) == pytest.approx(
+        depth_with_slips(X, (divisor_left_out,)), rel=1e-14
+    )
 
 
 def test_the_family_has_each_slip_each_pair_and_each_pair_doubled() -> None:
-    slips = [*SLIPS, *numbers_named(LEDGER, X)]
+    slips = [*TYPED, *numbers_named(LEDGER, X)]
     members = family(LEDGER, X)
     parts = Counter(slip.part for slip in slips)
     pairs = (len(slips) ** 2 - sum(count**2 for count in parts.values())) // 2
@@ -89,6 +105,15 @@ def test_the_family_has_each_slip_each_pair_and_each_pair_doubled() -> None:
     doubled_pairs = (len(without_scale) ** 2 - sum(count**2 for count in rest.values())) // 2
     assert len(members) == 1 + len(slips) + pairs + doubled_pairs
     assert len(set(members)) == len(members)
+
+
+def test_two_slips_within_one_bracket_are_members() -> None:
+    members = {frozenset(member) for member in family(LEDGER, X)}
+    within = [("density ratio", "k_1"), ("L/D", "sign"), ("k_t below", "divisor"),
+              ("fraction", "argument"), ("k_t above", "power"), ("terms", "k_1")]  # fmt: skip
+    for parts in within:
+        first, second = ([slip for slip in TYPED if slip.part == part] for part in parts)
+        assert {frozenset(pair) for pair in product(first, second)} <= members
 
 
 def test_a_number_in_use_is_no_slip() -> None:

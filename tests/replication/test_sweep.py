@@ -251,6 +251,20 @@ def test_every_example_runs(tmp_path: Path) -> None:
         assert table.num_rows == sweep.read_plan(example).count
 
 
+def test_without_pyarrow_a_sweep_says_what_to_install_and_writes_nothing(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    output = tmp_path / "rows.csv"
+    assert coldspray("sweep", EXAMPLES / "figure-5.toml", "-o", output) == (
+        2,
+        "",
+        "coldspray sweep: PyArrow, which writes the rows, is not installed: "
+        "python -m pip install 'coldspray[sweep]'\n",
+    )
+    assert not output.exists()
+
+
 @pytest.mark.parametrize("suffix", ["csv", "parquet"])
 def test_every_run_writes_the_same_bytes_and_parts_make_up_the_whole(
     suffix: str, tmp_path: Path

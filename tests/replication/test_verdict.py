@@ -1,5 +1,6 @@
 """Witnesses of verdicts, what the evidence says of the target density, and misprints judged."""
 
+import re
 from collections.abc import Iterator
 from fractions import Fraction as F
 from functools import cache
@@ -315,10 +316,21 @@ def test_a_sentence_says_under_which_conventions_a_verdict_becomes_another(
 ) -> None:
     for judged in record.claims:
         for reading, scope in zip(judged.assessment.readings, judged.scopes, strict=True):
-            assert " holds under three ways of rounding" in scope
-            assert ("it becomes" in scope) == bool(reading.otherwise), judged.id
+            holds, _, becomes = scope.partition("; under ")
+            assert re.search(" holds under (three|both) ways of rounding", holds)
+            assert "becomes" not in holds
+            assert bool(becomes) == bool(reading.otherwise), judged.id
             for judgement in reading.otherwise:
-                assert f'it becomes "{judgement.verdict}"' in scope
+                assert f'it becomes "{judgement.verdict}"' in becomes
+
+
+def test_a_verdict_is_not_said_to_hold_under_what_alone_makes_it_another(record: Record) -> None:
+    printed = record.claim("frank-zook-stainless")
+    assert printed.scopes[1] == (
+        "The verdict holds under three ways of rounding, the author's choices exact and the header "
+        "of Table A-1 exact or rounded; under rounded choices of the author it becomes "
+        '"reproduced within input rounding".'
+    )
 
 
 # What a reproduced number tells

@@ -11,7 +11,7 @@ from workbooks import rewritten
 
 from spreadsheets import foreign, package
 from spreadsheets.evaluate import Evaluator
-from spreadsheets.foreign import Cell, WorkbookError, read
+from spreadsheets.foreign import StoredCell, WorkbookError, read
 from spreadsheets.scalars import Area
 
 SHEET, TABLE = "xl/worksheets/sheet1.xml", "xl/tables/table1.xml"
@@ -74,8 +74,9 @@ def adding(rows: bytes) -> Callable[[bytes], bytes]:
 def test_formulas_are_read_with_their_stored_values(plain: Path) -> None:
     """openpyxl stores no values of formulas."""
     assert read(plain).sheets["Sheet"] == {
-        (1, 1): Cell(None, 1.0), (1, 2): Cell(None, 2.5), (1, 3): Cell(None, "text"),
-        (2, 1): Cell(None, 0.1), (2, 2): Cell("=A2*2", None), (2, 3): Cell("=A1&C1", None),
+        (1, 1): StoredCell(None, 1.0), (1, 2): StoredCell(None, 2.5),
+        (1, 3): StoredCell(None, "text"), (2, 1): StoredCell(None, 0.1),
+        (2, 2): StoredCell("=A2*2", None), (2, 3): StoredCell("=A1&C1", None),
     }  # fmt: skip
 
 
@@ -83,15 +84,15 @@ def test_formulas_are_read_with_their_stored_values(plain: Path) -> None:
     pytest.param(
         b'<row r="5"><c r="A5"><f t="shared" ref="A5:A7" si="0">A4+$B$1</f><v>1</v></c></row>'
         b'<row r="6"><c r="A6"><f t="shared" si="0"/><v>2</v></c></row>',
-        {(5, 1): Cell("=A4+$B$1", 1.0), (6, 1): Cell("=A5+$B$1", 2.0)},
+        {(5, 1): StoredCell("=A4+$B$1", 1.0), (6, 1): StoredCell("=A5+$B$1", 2.0)},
         id="a shared formula is filled down",
     ),
     pytest.param(
         b'<row r="5"><c r="A5"><f t="array" ref="A5:A6">B1:B2*2</f><v>1</v></c></row>'
         b'<row r="6"><c r="A6"><v>2</v></c></row>',
         {
-            (5, 1): Cell("=B1:B2*2", 1.0, array=(5, 1, 6, 1)),
-            (6, 1): Cell("=B1:B2*2", 2.0, array=(5, 1, 6, 1)),
+            (5, 1): StoredCell("=B1:B2*2", 1.0, array=(5, 1, 6, 1)),
+            (6, 1): StoredCell("=B1:B2*2", 2.0, array=(5, 1, 6, 1)),
         },
         id="every cell of an array formula has it",
     ),
@@ -99,19 +100,19 @@ def test_formulas_are_read_with_their_stored_values(plain: Path) -> None:
         b'<row r="5"><c r="A5"><f>[1]Sheet1!A1</f><v>3</v></c><c r="B5" t="str"><f>C1</f>'
         b'<v>#N/A</v></c><c r="C5" t="e"><f>NA()</f><v>#N/A</v></c></row>',
         {
-            (5, 1): Cell("=[1]Sheet1!A1", 3.0),
-            (5, 2): Cell("=C1", "#N/A"),
-            (5, 3): Cell("=NA()", "#N/A", error=True),
+            (5, 1): StoredCell("=[1]Sheet1!A1", 3.0),
+            (5, 2): StoredCell("=C1", "#N/A"),
+            (5, 3): StoredCell("=NA()", "#N/A", error=True),
         },
         id="a text that spells an error is none",
     ),
     pytest.param(
         b'<row><c><f>B3</f></c><c t="b"><v>1</v></c></row>',
-        {(3, 1): Cell("=B3", None), (3, 2): Cell(None, True)},
+        {(3, 1): StoredCell("=B3", None), (3, 2): StoredCell(None, True)},
         id="cells without addresses follow each other",
     ),
 ])  # fmt: skip
-def test_rows_are_read(rows: bytes, cells: dict[tuple[int, int], Cell], plain: Path) -> None:
+def test_rows_are_read(rows: bytes, cells: dict[tuple[int, int], StoredCell], plain: Path) -> None:
     """The rows stand below two others."""
     sheet = read(spoiled(plain, adding(rows))).sheets["Sheet"]
     assert {at: cell for at, cell in sheet.items() if at[0] > 2} == cells

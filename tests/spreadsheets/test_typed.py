@@ -19,6 +19,7 @@ from spreadsheets.sheets.messages import (
     DOUBTFUL,
     EARLY,
     IGNORED,
+    INPUTS_SAY,
     KEEPS_NAME,
     NO_BETA,
     NO_CHOICE,
@@ -31,6 +32,7 @@ from spreadsheets.sheets.messages import (
     OUT_OF_ROWS,
     POINTS_MISSING,
     REVERSED,
+    RUN_SAYS,
     STALE,
     UNCHANGED,
     UNUSABLE,
@@ -147,6 +149,8 @@ def test_what_the_workbook_says_of_numbers_that_can_be_used(
             assert page[f"{s[1:]}.renamed"] == said.notes.get(s, ""), (name, s)
             finished = run not in (OUT_OF_ROWS, OUT_OF_BOTH)
             assert (page[f"depth_um{s}"] == NOT_AVAILABLE) != finished, (name, s)
+            said_in_cells = {page[f"says_{part}{s}"] for part in RUN_SAYS} - {"", NOT_AVAILABLE}
+            assert said_in_cells == {run}, (name, s)
             assert page[f"trust{s}"] == float(run in (COMPLETE, EARLY, REVERSED)), (name, s)
         message = CHANGED if said.changed else UNCHANGED
         expected = {
@@ -160,8 +164,14 @@ def test_what_the_workbook_says_of_numbers_that_can_be_used(
         assert page.errors == {}, name
     # With the switch, the workbook is again that of the report's inputs.
     usual, switched = (pages[names.index(name)] for name in ("nothing", "the report's inputs"))
-    typed = {f"{name}.typed" for name in ("V_impact", "rho_t", "beta_high")}
-    keys = emitted.book.values.keys() - typed - {"inputs.choice", "inputs_from", "inputs.message"}
+    typed = {
+        f"{n}.{end}" for n in ("V_impact", "rho_t", "beta_high") for end in ("typed", "number")
+    }
+    of_choice = {
+        "inputs.choice", "inputs.chosen", "inputs_from", "inputs.message", "is_ignored",
+        "is_unchanged", "says_ignored", "says_unchanged",
+    }  # fmt: skip
+    keys = emitted.book.values.keys() - typed - of_choice
     assert {key: switched[key] for key in keys} == {key: usual[key] for key in keys}
 
 
@@ -200,8 +210,10 @@ def check_unusable(page: Any, usual: Any, bad: Mapping[str, str]) -> None:
 def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[Value]:
     """Return what a cell may show that depends on an unusable input."""
     name, _, ending = key.rpartition(".")
-    if ending == "check":
-        return {UNUSABLE_INPUTS[bad[name]][1]}
+    if name in bad:
+        return allowed_beside(ending, *UNUSABLE_INPUTS[bad[name]])
+    if key.startswith("is_") and key.removeprefix("is_") in INPUTS_SAY:
+        return {float(key == "is_unusable")}
     if key.startswith(("trust", "convergence.same")) or ending == "inputs_changed":
         return {0.0}
     if ending == "inputs_unusable":
@@ -218,6 +230,7 @@ def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[Value]:
         return {f"{page[f'label_{part}']}: {page[f'message_{part}']}"}
     said = {
         "inputs.message": UNUSABLE,
+        "says_unusable": UNUSABLE,
         "convergence.message": STALE,
         "figure_5.message": POINTS_MISSING,
         "solve.message": NOT_SOLVED,
@@ -231,6 +244,18 @@ def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[Value]:
         return {text}
     # Rows are blank; everything else that is computed is not available.
     return {NOT_AVAILABLE, ""}
+
+
+def allowed_beside(ending: str, typed: float | str | None, fault: str) -> set[Value]:
+    """Return what a cell may show in the row of an input that cannot be used, by its key's end."""
+    if ending in ("number", "taken") and isinstance(typed, float):
+        return {typed}
+    if ending in ("check", "fault"):
+        return {fault}
+    sides = {"below": "too small", "above": "too large"}
+    if ending in sides and fault in sides.values():
+        return {fault if fault == sides[ending] else ""}
+    return {NOT_AVAILABLE}
 
 
 def alone(names: Sequence[str], kinds: Sequence[str]) -> list[dict[str, str]]:

@@ -137,7 +137,8 @@ def typed_inputs(
         monkeypatch.setattr(workbook, name, case)
     book = build(rows=400, ledger=ledger)
     not_live = re.compile(
-        r"convergence\.(?!in_use)|.*\.(check|renamed)|(overview\.)?inputs_changed|inputs\.message"
+        r"convergence\.(?!in_use)|.*\.(check|whose|renamed)|(overview\.)?inputs_changed"
+        r"|inputs\.message|(is|says)_(changed|unchanged|renamed\w*)|other_beta\w*"
     )
     live = {key: value for key, value in book.values.items() if not not_live.match(key)}
     return live, book.rounding

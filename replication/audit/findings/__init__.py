@@ -14,6 +14,7 @@ from functools import cache
 from msgspec.structs import replace
 
 from reference.ledger import load
+from replication.audit.findings.contradictions import minimum_velocity, wrong_reference
 from replication.audit.findings.evidence import FindingFunction
 from replication.audit.findings.frank_zook import (
     equation_16,
@@ -44,7 +45,6 @@ from replication.audit.findings.stream import (
     faster_particles,
     observed_digits,
 )
-from replication.audit.findings.wording import minimum_velocity, wrong_reference
 from replication.audit.record import Finding
 from replication.audit.results import Results
 

@@ -458,10 +458,10 @@ def frank_zook_values(audit: Results) -> Finding:
     tried = {name: audit.slips(audit.ledger.claims[f"frank-zook-{name}"]) for name in TARGETS}
     names = {name: {slip.name for slip in fitting} for name, (_, fitting) in tried.items()}
     forms = equals(
-        "forms", "2194", tried["rha"][0].forms, "1", "forms of Eq. 16 in the family of slips"
+        "forms", "2532", tried["rha"][0].forms, "1", "forms of Eq. 16 in the family of slips"
     )
     members = equals(
-        "members", "1721", tried["rha"][0].members, "1",
+        "members", "2086", tried["rha"][0].members, "1",
         "different values of the family of slips that is generated, for armor",
     )  # fmt: skip
     fit_rha = equals(
@@ -469,7 +469,7 @@ def frank_zook_values(audit: Results) -> Finding:
         "members of the family that give the armor value for some density that is admitted",
     )  # fmt: skip
     fit_stainless = equals(
-        "fit_stainless", "5", len(names["stainless"]), "1",
+        "fit_stainless", "6", len(names["stainless"]), "1",
         "members of the family that give the stainless value for some density that is admitted",
     )  # fmt: skip
     at_taken = {
@@ -491,11 +491,11 @@ def frank_zook_values(audit: Results) -> Finding:
         "Eq. 16 with 1/2 for k_t in the divisor and the particle's density for both, armor",
     )  # fmt: skip
     chance_rha = prints(
-        "chance_rha", "3.3", tried["rha"][0].expected, "1",
+        "chance_rha", "3.9", tried["rha"][0].expected, "1",
         "how many members would give the armor value by accident",
     )  # fmt: skip
     chance_stainless = prints(
-        "chance_stainless", "3.4", tried["stainless"][0].expected, "1",
+        "chance_stainless", "4.0", tried["stainless"][0].expected, "1",
         "how many members would give the stainless value by accident",
     )  # fmt: skip
     fit_both = equals(
@@ -555,8 +555,9 @@ def frank_zook_values(audit: Results) -> Finding:
         f"or more. In the derived form {text('frank-zook-rha')} needs R_t = {rha_resistance} GPa "
         f"(printed {text('fz-resistance-rha', 'GPa')}) or V = {rha_velocity} m/s (printed "
         f"{text('a1-initial-velocity')}); no input within its rounding gives it. What slips would "
-        "give is computed for a family of them, generated part by part: Eq. 16 with one slip or "
-        "two, each with and without the missing factor of 2. The family has "
+        "give is computed for a family of them, generated from each thing that is typed once: "
+        "Eq. 16 with one slip or two, also two within one bracket, each with and without the "
+        "missing factor of 2. The family has "
         f"{forms} forms with {members} different values. For some density that Table A-1 admits, "
         f"{fit_rha} of them print {text('frank-zook-rha')} and {fit_stainless} print "
         f"{text('frank-zook-stainless')} (at {assumed} kg/m^3 {taken_rha} and {taken_stainless}), "
