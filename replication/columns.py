@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from reference.units import UnitError, unit_dimension
-from replication.reading import content_of, place, quoted, read_number
+from replication.user_input import content_of, place, quoted, read_number
 
 LARGEST_FILE = 2**26
 

@@ -14,7 +14,7 @@ from replication.cases import INPUTS, OTHER_FACTOR, other_factor
 from replication.columns import Column, bad_rows, column_of, not_among, read_columns
 from replication.models.depth import elasticities, final_depth
 from replication.models.impact import Impact, InputError
-from replication.reading import advice, printable, quoted, typed_unit
+from replication.user_input import advice, printable, quoted, typed_unit
 
 FITTABLE = ("resistance", *OTHER_FACTOR)
 """What can be fitted."""

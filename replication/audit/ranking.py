@@ -50,7 +50,8 @@ def _beside(claim: Claim) -> tuple[str, bool, bool]:
 def digits_without_zeros(text: str) -> int:
     """Return how many digits of a number are left without the zeros at both its ends; 1 of a zero.
 
-    >>> [digits_without_zeros(text) for text in ("7500", "0.0580", "5.00E+02", "10^7", "~ 0.3", "0", "1/2")]
+    >>> texts = ("7500", "0.0580", "5.00E+02", "10^7", "~ 0.3", "0", "1/2")
+    >>> [digits_without_zeros(text) for text in texts]
     [2, 2, 1, 1, 1, 1, 2]
     """
     mantissa = re.sub(r"[Ee][-+]?\d+|(?<=10)\^.*", "", text)

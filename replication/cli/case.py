@@ -10,8 +10,8 @@ from reference.units import to_si
 from replication.cases import BETA_5, CASES, INPUTS, inputs_of, option, read_case
 from replication.cli.options import path
 from replication.models.impact import Impact
-from replication.reading import read_number, typed_unit
 from replication.text import number, with_unit
+from replication.user_input import read_number, typed_unit
 
 OF_THE_SHEET = ("step", "stop_velocity")
 """The inputs that act only where time is stepped."""

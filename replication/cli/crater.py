@@ -10,8 +10,8 @@ from replication.cli.options import add_json, add_quiet
 from replication.cli.output import put
 from replication.models.crater import crater_depth, crater_volume_ratio, volume
 from replication.models.impact import GREATEST, LEAST
-from replication.reading import place, quoted, read_number
 from replication.text import number, with_unit
+from replication.user_input import place, quoted, read_number
 
 HELP = "print a crater's volume by its depth, or its depth by its volume"
 EXAMPLE = "coldspray crater --volume-ratio 0.06"

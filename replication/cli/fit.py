@@ -29,8 +29,8 @@ from replication.fit import (
     measurements_in,
 )
 from replication.models.depth import final_depth
-from replication.reading import place
 from replication.text import aligned, number, numbers, percent
+from replication.user_input import place
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

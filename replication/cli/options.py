@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from reference.scheme import Scheme
-from replication.reading import advice, place, quoted, read_number, typed_unit
+from replication.user_input import advice, place, quoted, read_number, typed_unit
 
 Name = TypeVar("Name", bound=str)
 

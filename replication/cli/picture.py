@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from replication.cli.options import path
-from replication.reading import place
+from replication.user_input import place
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

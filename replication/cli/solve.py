@@ -19,9 +19,9 @@ from replication.cli.case import (
 from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import filled, put, width
 from replication.models.impact import Impact, InputError
-from replication.reading import place, quoted, read_number
 from replication.solve import DEPTHS, QUANTITIES, Solution, solve, solve_printed
 from replication.text import between, columns, number, with_unit
+from replication.user_input import place, quoted, read_number
 
 HELP = "print the resistance, velocity, ... that gives a final depth"
 EXAMPLE = "coldspray solve resistance --depth '3.3 um' --rounded"

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from replication.cli.options import add_json, add_quiet, path
 from replication.cli.output import progress, put
 from replication.cli.picture import add_plot, checked, drafted, notes_on
-from replication.reading import one_line, place
+from replication.user_input import one_line, place
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
