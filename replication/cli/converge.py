@@ -11,7 +11,7 @@ from replication.cli.options import add_csv_and_json, add_quiet, add_scheme, tim
 from replication.cli.output import filled, put, width
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.models.impact import Impact
-from replication.text import columns, number, percent
+from replication.text import columns, in_percent, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -197,7 +197,7 @@ def _limit(record: Mapping[str, Any]) -> str:
     observed, order = record["observed_order"], record["nominal_order"]
     text = (
         f"{_um(record['limit'], 8)} um, observed order {observed:.2f}, "
-        f"grid convergence index {percent(record['gci'], 2)}"
+        f"grid convergence index {in_percent(record['gci'], 2)}"
     )
     accidental = abs(observed - order) > 0.1 * order
     return f"{text} (no bound: the order is not the scheme's)" if accidental else text

@@ -29,7 +29,7 @@ from replication.fit import (
     measurements_in,
 )
 from replication.models.depth import final_depth
-from replication.text import aligned, number, numbers, percent
+from replication.text import aligned, in_percent, number, numbers
 from replication.user_input import place
 
 if TYPE_CHECKING:
@@ -171,7 +171,7 @@ def _fit_text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[s
     if fitted.standard_error is None:
         results.append(("standard error", "unknown: one measurement, without an uncertainty"))
     else:
-        share = percent(fitted.standard_error / fitted.value)
+        share = in_percent(fitted.standard_error / fitted.value)
         error = input_in_words(fitted.quantity, fitted.standard_error, 3)
         by = "uncertainties" if weighted else "scatter"
         results.append(("standard error", f"{error}, {share}, by the {by}"))
