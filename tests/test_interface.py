@@ -2,11 +2,15 @@
 
 import subprocess
 import sys
+import tomllib
+from importlib import import_module
+from pathlib import Path
 
 import pytest
 
 import coldspray
 import replication
+from replication.__main__ import program
 from replication.audit.record import Record
 
 
@@ -27,6 +31,12 @@ def test_it_runs_as_the_command(module: str) -> None:
     command = [sys.executable, "-m", module, "--version"]
     done = subprocess.run(command, capture_output=True, text=True, check=True)
     assert done.stdout == f"coldspray {coldspray.__version__}\n"
+
+
+def test_the_installed_program_is_the_same() -> None:
+    project = tomllib.loads((Path(__file__).parents[1] / "pyproject.toml").read_text("utf-8"))
+    module, _, name = project["project"]["scripts"]["coldspray"].partition(":")
+    assert getattr(import_module(module), name) is program
 
 
 def test_a_case_is_shown_as_the_call_that_makes_it() -> None:

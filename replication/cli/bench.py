@@ -35,15 +35,15 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Measure, write the files if asked to, and print the table."""
     from replication.models.arrays import import_numba
-
-    import_numba()  # before other modules do: it says what is wrong with its settings
-    from replication.bench.measure import CASES, bench
-    from replication.bench.show import texts, write_bench
     from spreadsheets.safely import check_folder
 
-    names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
     if options.out is not None:
         check_folder(options.out, ["bench.txt"])
+    import_numba()  # before other modules do: it says what is wrong with its surroundings
+    from replication.bench.measure import CASES, bench
+    from replication.bench.show import texts, write_bench
+
+    names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
     repeat, limit = (1, 1.0) if options.quick else (7, 5.0)
     if options.limit is not None:
         with place("--limit"):

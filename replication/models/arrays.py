@@ -574,9 +574,15 @@ def _compiled(model: Model, alone: bool) -> Any:
 
 
 def import_numba() -> Any:
-    """Return the module numba. Raises ValueError if it cannot use the environment's settings."""
+    """Return the module numba. Raises ValueError if it cannot compile in this environment."""
     import warnings
+    from pathlib import Path
 
+    try:
+        Path.cwd()
+    except FileNotFoundError as error:
+        problem = "Numba cannot compile in a current folder that was deleted: change to another"
+        raise ValueError(problem) from error
     with postponed_signals(), warnings.catch_warnings():
         warnings.filterwarnings("error", "Environment variable", RuntimeWarning)
         try:

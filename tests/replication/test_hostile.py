@@ -196,11 +196,27 @@ def test_of_two_files_none_is_replaced_if_the_disk_is_full_at_the_second(
     [
         ("audit.audit", "audit", ["audit"], "coldspray-audit: this folder cannot be created: "),
         ("audit.audit", "audit", ["audit", "--out", "/proc/no"], "/proc/no: this folder cannot be"),
-        ("workbook", "build", ["workbook"], "workbook.xlsx: the current folder was deleted"),
-        ("workbook", "build", ["workbook", "-o", "/proc/no.xlsx"], "/proc/no.xlsx: No such file"),
-        ("sweep", "write", ["sweep", "PLAN"], "plan.csv: the current folder was deleted"),
+        (
+            "workbook",
+            "build_workbook",
+            ["workbook"],
+            "workbook.xlsx: the current folder was deleted",
+        ),
+        (
+            "workbook",
+            "build_workbook",
+            ["workbook", "-o", "/proc/no.xlsx"],
+            "/proc/no.xlsx: No such file",
+        ),
+        ("sweep", "write_sweep", ["sweep", "PLAN"], "plan.csv: the current folder was deleted"),
         ("bench.measure", "bench", ["bench", "--out", "b"], "b: this folder cannot be created: "),
         ("check.workbook", "check", ["check", "x", "--html", "y"], "y: the current folder was del"),
+        (
+            "bench.measure",
+            "bench",
+            ["bench", "--quick"],
+            "Numba cannot compile in a current folder",
+        ),
     ],
     ids=lambda value: " ".join(value) if isinstance(value, list) else "",
 )
