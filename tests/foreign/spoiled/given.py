@@ -37,7 +37,7 @@ CASES = (
     case("map radius=C8:C61", refused("one cell"), given={"radius": "C8:C61"}),
     case("map depth=B1", refused("--map depth=B1"), given={"depth": "B1"}),
     case("map step=A1", refused("A1", "no number"), given={"step": "A1"}),
-    case("map deep=D8:D61", refused("deep", "choose one of"), given={"deep": "D8:D61"}),
+    case("map deep=D8:D61", refused("deep", "mean depth"), given={"deep": "D8:D61"}),
     case("map depth=D8:D10", refused(), given={"depth": "D8:D10"}),
     case("map time=Nowhere!A1", refused("Nowhere", "Sheet1"), given={"time": "Nowhere!A1"}),
     case("map velocity=A8:C61", refused(), given={"velocity": "A8:C61"}),
