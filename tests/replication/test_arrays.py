@@ -1,6 +1,7 @@
 """Compiled models: the same doubles as plain ones, errors by element, containers, threads."""
 
 import inspect
+import math
 import os
 import pickle
 import shutil
@@ -360,6 +361,29 @@ def test_processes_that_compile_at_once_share_one_cache(tmp_path: Path) -> None:
     outputs = [process.communicate()[0] for process in together]
     outputs.append(start(0).communicate()[0])  # from the cache
     assert outputs == ["[131 131] [500.   0.]\n"] * 4
+
+
+@pytest.mark.parametrize(
+    ("name", "inputs", "message"),
+    [
+        ("resistance_for_depth", (3.3e-3, 500.0, 11e-6, 8900.0, 7850.0), None),
+        ("resistance_for_depth", (3.3e-6, 500.0, 1e-12, 8900.0, 7850.0), "resistance is 0.0"),
+        ("target_density_for_depth", (9e-6, 500.0, 11e-6, 8900.0, 3.5e9), "target density has no"),
+        ("final_depth", (500.0, 1e-300, 8900.0, 7850.0, 3.5e9), "particle mass is 0.0"),
+        ("final_depth", (500.0, math.nan, 8900.0, 7850.0, 3.5e9), "radius is nan"),
+        ("velocity_at_depth", (1.0, 500.0, 11e-6, 8900.0, 7850.0, 3.5e9), "at_depth is 1.0"),
+    ],
+)  # fmt: skip
+def test_plain_numbers_need_no_numpy_even_out_of_range(
+    monkeypatch: pytest.MonkeyPatch, name: str, inputs: tuple[float, ...], message: str | None
+) -> None:
+    function = getattr(replication, name)
+    monkeypatch.setitem(sys.modules, "numpy", None)
+    if message is None:
+        assert function(*inputs) > 0
+    else:
+        with pytest.raises(ValueError, match=message):
+            function(*inputs)
 
 
 def test_public_names_are_loaded_when_used() -> None:
