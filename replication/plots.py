@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from replication.cases import INPUTS
-from replication.columns import column_of, read_columns
-from replication.fit import HEADS, Fit, Measurement
+from replication.columns import Column, column_of, not_among, note_of_unused, read_columns
+from replication.fit import HEADS, Fit, Measurement, check_uncertainty
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.motion import history, stop_time
@@ -185,10 +185,14 @@ def _in_words(name: str, value: float) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Points:
-    """One's own points: the name of their file, and columns [SI] by quantity, of equal length."""
+    """One's own points: the name of their file, and columns [SI] by quantity, of equal length.
+
+    `notes` says which columns of the file are not used.
+    """
 
     file: str
     columns: Mapping[AxisQuantity, Sequence[float]]
+    notes: Sequence[str] = ()
 
     def draw(
         self, panel: "Axes", x: AxisQuantity, y: AxisQuantity, *, further: bool = False
@@ -228,11 +232,16 @@ def read_points(path: Path, x: AxisQuantity | None, ys: Sequence[AxisQuantity]) 
     ValueError that names the file and what it lacks.
     """
     columns = read_columns(path)
-    numbers: dict[AxisQuantity, Sequence[float]] = {}
+    known: dict[AxisQuantity, Column] = {}
+    # What is left may be the uncertainty: an "error" that an axis shows is none.
     for quantity in (*([x] if x else ()), *ys, UNCERTAINTY):
-        column = column_of(columns, quantity.names)
-        if column is not None:
-            numbers[quantity] = column.numbers(quantity.si)
+        if column := column_of(not_among(columns, known.values()), quantity.names):
+            known[quantity] = column
+    if UNCERTAINTY in known and DEPTH in known:
+        check_uncertainty(known[UNCERTAINTY], known[DEPTH])
+    elif DEPTH not in known:
+        known.pop(UNCERTAINTY, None)  # bars are those of a depth
+    numbers = {quantity: column.numbers(quantity.si) for quantity, column in known.items()}
     lacks = "" if x is None or x in numbers else f"'{_head(x)}'"
     if not any(y in numbers for y in ys):
         wanted = " or ".join(f"'{_head(y)}'" for y in ys)
@@ -240,7 +249,7 @@ def read_points(path: Path, x: AxisQuantity | None, ys: Sequence[AxisQuantity]) 
     if lacks:
         has = ", ".join(repr(column.head) for column in columns[:6])
         raise ValueError(f"{path} has no column {lacks} (it has {has})")
-    return Points(path.name, numbers)
+    return Points(path.name, numbers, note_of_unused(columns, known.values()))
 
 
 def _head(quantity: AxisQuantity) -> str:
@@ -327,32 +336,38 @@ def plot_history(
 
     If the particle sinks in that far, a line marks x = R, where the contact area stops growing.
     """
-    marks = {TIME: time, DEPTH: depth, SPEED: velocity} if len(time) <= MARKS else {}
-    label, line = "at the times asked for", look_of(impact).of_line
-    return _over_exact(impact, max(time), line, marks, label, title, points)
+    label = "at the times asked for"
+    marks = {DEPTH: Marks(label, time, depth), SPEED: Marks(label, time, velocity)}
+    line, is_marked = look_of(impact).of_line, len(time) <= MARKS
+    return _over_exact(impact, max(time), line, marks if is_marked else {}, title, points)
+
+
+class Marks(NamedTuple):
+    """What is marked over a curve: its name, times [s], and depths or velocities [SI]."""
+
+    label: str
+    times: Sequence[float]
+    values: Sequence[float]
 
 
 def _over_exact(
     impact: Impact,
     end: float,
     line: Mapping[str, Any],
-    marks: Mapping[AxisQuantity, Sequence[float]],
-    label: str,
+    marks: Mapping[AxisQuantity, Marks],
     title: str,
     points: Points | None,
 ) -> "Figure":
-    """Draw the exact depth and velocity from 0 to an end [s], in a style of line.
-
-    `marks` are times, depths and velocities that are drawn over it, or nothing.
-    """
+    """Draw the exact depth and velocity from 0 to an end [s], in a style of line, and marks."""
     curves = _exact(impact, end)
     with styled():
         figure, panels = _panels(title, 2)
         for panel, quantity in zip(panels, (DEPTH, SPEED), strict=True):
             exact = quantity.shown(curves[quantity])
             panel.plot(TIME.shown(curves[TIME]), exact, **line, label="exact")
-            if marks:
-                x, y = TIME.shown(marks[TIME]), quantity.shown(marks[quantity])
+            if quantity in marks:
+                label, times, values = marks[quantity]
+                x, y = TIME.shown(times), quantity.shown(values)
                 panel.plot(x, y, label=label, **look_of(impact).of_marks)
             panel.set_ylabel(quantity.title)
             if points:
@@ -382,8 +397,9 @@ def _line_at_radius(panel: "Axes", impact: Impact, deepest: float) -> None:
 def plot_sheet(sheet: Sheet, title: str = "", points: Points | None = None) -> "Figure":
     """Draw the sheet's rows over the exact motion: depth and final velocity against time.
 
-    A row's depth stands half a step behind its time and its velocity. Row 0, the touch, is drawn,
-    too.
+    A row's depth belongs to the middle of its step, half a step before its time. It is drawn there:
+    at the row's time it would stand below the curve, by a difference that the sheet does not have.
+    Row 0, the touch, is drawn, too.
     """
     impact, every = sheet.impact, _every(sheet.steps)
     rows = (
@@ -392,10 +408,19 @@ def plot_sheet(sheet: Sheet, title: str = "", points: Points | None = None) -> "
     last = [
         row.velocity_initial if row.velocity_final is None else row.velocity_final for row in rows
     ]
-    marks = {TIME: [row.time for row in rows], DEPTH: [row.depth for row in rows], SPEED: last}
     end = max(sheet.rows[-1].time, stop_time(**impact.motion))
     label = "the sheet, all rows" if every == 1 else f"the sheet, one row of {every}"
-    return _over_exact(impact, end, {"color": INK}, marks, label, title, points)
+    times, middles = (
+        [row.time for row in rows],
+        [max(0.0, row.time - impact.step / 2) for row in rows],
+    )
+    marks = {
+        DEPTH: Marks(
+            f"{label}, each in the middle of its step", middles, [row.depth for row in rows]
+        ),
+        SPEED: Marks(label, times, last),
+    }
+    return _over_exact(impact, end, {"color": INK}, marks, title, points)
 
 
 _PARTS = {

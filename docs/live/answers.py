@@ -6,21 +6,26 @@ numbers come from the project's packages, which are the same files as anywhere.
 
 import json
 from collections.abc import Iterator, Mapping
+from decimal import ROUND_CEILING
+from fractions import Fraction
 from math import ulp
 from typing import Any
 
 from reference.ledger import load
+from reference.units import to_si
+from replication import error
 from replication.audit.audit import Audit
 from replication.audit.findings import finding
 from replication.cases import BETA_5, INPUTS, changed, modelled
+from replication.cli.case import EXPECTED, doubt
 from replication.models import motion
 from replication.models.depth import final_depth
 from replication.models.impact import Impact, InputError
-from replication.models.sheet import Row, run
-from replication.reading import place, read_number
+from replication.models.sheet import Row, Sheet, run
 from replication.report.document import claim_document, equation_document
 from replication.solve import solve_printed
-from replication.text import json_text
+from replication.text import between, json_text, number, quantity, rounded
+from replication.user_input import place, read_number
 
 Table = dict[str, Any]
 
@@ -39,6 +44,18 @@ Logarithms and powers of two libraries are one or two apart, and a number comes 
 CURVE = 100
 """Parts of the exact curve; at the figure's width each is some five pixels long."""
 
+LABELS = {
+    "velocity": "Impact velocity",
+    "radius": "Particle radius",
+    "particle_density": "Particle density",
+    "target_density": "Target density",
+    "beta": "β",
+    "flow_stress": "Flow stress",
+    "step": "Step of the sheet",
+    "measured_depth": "Measured depth",
+}
+"""What a message calls an input: as the label of its field on the page does."""
+
 audit = Audit(load())
 
 
@@ -52,8 +69,8 @@ def answer(question: str) -> str:
         return json_text(proof(asked["kind"], asked["id"], asked["stored"]))
     try:
         return json_text(model(asked["inputs"]))
-    except ValueError as error:
-        return json_text({"refused": str(error)})
+    except ValueError as wrong:
+        return json_text({"refused": str(wrong)})
 
 
 # Proofs again
@@ -62,13 +79,16 @@ def answer(question: str) -> str:
 def proof(kind: str, name: str, stored: Table) -> Table:
     """Prove a claim, an equation or a finding anew, and compare it with its stored document.
 
-    `enclosure` is null where nothing was proven by one, as for words of the report.
+    `range` is the proven range, rounded outward, with its unit; null where nothing was proven by
+    one, as for words of the report.
     """
     here = json.loads(json_text(_document(kind, name)))
+    enclosure, unit = here.get("enclosure"), here.get("unit", "1")
     return {
         "verdict": here.get("verdict", "its numbers hold" if here.get("holds") else "fails"),
-        "computed": here.get("computed"), "enclosure": here.get("enclosure"),
-        "unit": here.get("unit", ""), "differs": list(_differences("", stored, here)),
+        "computed": here.get("computed"), "unit": unit, "printed": here.get("printed"),
+        "range": enclosure and quantity(between(enclosure, 5), unit),
+        "differs": list(_differences("", stored, here)),
     }  # fmt: skip
 
 
@@ -110,43 +130,67 @@ def model(given: Mapping[str, str]) -> Table:
     measured. Lengths in m, times in s. Raises ValueError for a text or a case that is not usable.
     """
     inputs = {name: text for name, text in given.items() if name != "measured_depth"}
-    impact = changed(BETA_5, {name: _number(name, text) for name, text in inputs.items()})
+    impact = _impact({name: _number(name, text) for name, text in inputs.items()})
     stop = motion.stop_time(**impact.motion)
     times = [stop * k / CURVE for k in range(CURVE + 1)]
     depths, speeds = [0.0] * len(times), [0.0] * len(times)
     motion.history(times, **impact.motion, depth=depths, speed=speeds)
     depth = final_depth(**impact.motion)
+    sheet = _sheet(impact, stop)
+    inverse = _resistance(impact, given["measured_depth"])
     return {
         "resistance": impact.target_resistance,
         "depth": depth, "normalized_depth": depth / impact.radius, "stop_time": stop,
         "curve": list(zip(times, depths, strict=True)),
-        "sheet": _sheet(impact, stop),
-        "approaches": _approaches(impact, depth),
-        "inverse": _resistance(impact, given["measured_depth"]),
+        "sheet": _rows_and_points(sheet) if isinstance(sheet, Sheet) else {"refused": sheet},
+        "approaches": _approaches(impact, depth, inverse.get("depth")),
+        "inverse": inverse,
+        **_doubts(impact, sheet, inverse.get("resistance")),
     }  # fmt: skip
 
 
 def _number(name: str, text: str) -> float:
-    with place(name.replace("_", " ")):
-        return read_number(text, INPUTS[name])
+    """Read an input, which must be above zero; a message names it as the page does."""
+    with place(LABELS[name]):
+        value = read_number(text, {**INPUTS, "measured_depth": "m"}[name])
+    if value <= 0:
+        raise ValueError(f"{LABELS[name]} is {text}: it must be greater than zero")
+    return value
 
 
-def _sheet(impact: Impact, stop: float) -> Table:
-    """Return the sheet's first rows, its end, and points for the figure; or why it was not run."""
-    if stop > MOST_ROWS * impact.step:
-        least = f"{stop / MOST_ROWS * 1e9:.3g} ns"
-        return {"refused": f"more than {MOST_ROWS} rows: take a step of at least {least}"}
+def _impact(values: Mapping[str, float]) -> Impact:
     try:
-        sheet = run(impact)
-    except InputError as error:
-        return {"refused": str(error)}
-    every = -(-len(sheet.rows) // MOST_POINTS)
-    shown = sheet.rows[::every]
-    points = [(row.time, row.depth) for row in (*shown, sheet.rows[-1])]
+        return changed(BETA_5, values)
+    except InputError as wrong:
+        raise ValueError(f"{LABELS.get(wrong.name, wrong.name)} {wrong.problem}") from wrong
+
+
+def _sheet(impact: Impact, stop: float) -> Sheet | str:
+    """Run the sheet, or say why it was not run."""
+    if stop > MOST_ROWS * impact.step:
+        least = rounded(Fraction(stop) / MOST_ROWS * 10**9, 3, ROUND_CEILING)
+        return f"more than {MOST_ROWS} rows: take a step of at least {float(least):g} ns"
+    try:
+        return run(impact)
+    except InputError as wrong:
+        return str(wrong)
+
+
+def _rows_and_points(sheet: Sheet) -> Table:
+    """Return the sheet's first rows, its end, and points for the figure.
+
+    A row's depth belongs to the middle of its step, half a step before the row's time: the point is
+    there, so that its distance from the exact curve is the error of the sheet.
+    """
+    every, half = -(-len(sheet.rows) // MOST_POINTS), sheet.impact.step / 2
+    marked = list(sheet.rows[::every])
+    if sheet.steps % every:
+        marked.append(sheet.rows[-1])
     first, last = sheet.rows[:6], sheet.rows[max(6, len(sheet.rows) - 2) :]
     return {
         "steps": sheet.steps, "depth": sheet.final_depth, "every": every,
-        "normalized_depth": sheet.normalized_depth, "points": points,
+        "normalized_depth": sheet.normalized_depth,
+        "points": [(max(0.0, row.time - half), row.depth) for row in marked],
         "first": _numbered(first, 0), "last": _numbered(last, len(sheet.rows) - len(last)),
     }  # fmt: skip
 
@@ -155,30 +199,81 @@ def _numbered(rows: tuple[Row, ...], start: int) -> list[list[float | None]]:
     return [[start + k, *row] for k, row in enumerate(rows)]
 
 
-def _approaches(impact: Impact, depth: float) -> list[Table]:
-    """Return X/R by each model and as observed, and how each is named."""
-    resistance = {"resistance": impact.target_resistance}
-    frank_zook = modelled("frank-zook", impact).model
-    with_own = modelled("frank-zook", impact, resistance).model
-    as_printed = modelled("frank-zook-printed", impact).model
-    constant = modelled("constant-pressure", impact).model
-    observed = float(load().value("observed-ratio"))
-    own = f"Rₜ = {frank_zook.resistance / 1e9:g} GPa, as in the report"
-    named = (
-        ("rigid sphere, exact", depth / impact.radius),
-        ("constant pressure", constant.normalized_depth),
-        (f"Frank and Zook, {own}", frank_zook.normalized_depth),
-        (f"Frank and Zook as Eq. 16 prints it, {own}", as_printed.normalized_depth),
-        ("Frank and Zook, with this target’s Rₜ", with_own.normalized_depth),
-        ("observed, section 2", observed),
+def _doubts(impact: Impact, sheet: Sheet | str, sought: float | None) -> Table:
+    """Return the warnings and notes that the command line gives for this case.
+
+    `sought` is the resistance for the measured depth [Pa], if there is one.
+    """
+    warnings, notes = [], []
+    for name in EXPECTED:
+        if (value := getattr(impact, name)) is not None:
+            warnings += doubt(name, value, LABELS[name])
+    if isinstance(sheet, Sheet):
+        for kind, words in error.warnings(sheet).items():
+            (notes if kind in error.NOTES else warnings).append(f"the sheet: {words}")
+    if sought is not None:
+        named = "the resistance for the measured depth"
+        warnings += doubt("resistance", sought, named, typed=False)
+    return {"warnings": warnings, "notes": notes}
+
+
+def _approaches(impact: Impact, depth: float, measured: float | None) -> Table:
+    """Return X/R by each model, as measured and as observed, and how each is named.
+
+    `longest` is the X/R of the longest bar that is drawn: what was measured may be anything.
+    """
+    armor, stainless, here = (
+        {"resistance": resistance}
+        for resistance in (
+            float(load().value("fz-resistance-rha")),
+            float(load().value("fz-resistance-stainless")),
+            impact.target_resistance,
+        )
     )
-    return [{"name": name, "normalized_depth": value} for name, value in named]
+    ratios = {
+        "rigid sphere, exact": depth / impact.radius,
+        "constant pressure": modelled("constant-pressure", impact).model.normalized_depth,
+    }
+    targets = (
+        (f"armor, Rₜ = {armor['resistance'] / 1e9:g} GPa", armor),
+        (f"stainless steel, Rₜ = {stainless['resistance'] / 1e9:g} GPa", stainless),
+        ("this target’s Rₜ", here),
+    )
+    for target, own in targets:
+        model = modelled("frank-zook", impact, own).model
+        ratios[f"Frank and Zook: {target}"] = model.normalized_depth
+    for target, own in targets[:2]:
+        model = modelled("frank-zook-printed", impact, own).model
+        ratios[f"Frank and Zook as Eq. 16 prints it: {target}"] = model.normalized_depth
+    longest = max(1.0, *ratios.values())
+    if measured is not None:
+        ratios["your measured depth"] = measured / impact.radius
+    # Equally many digits in all rows, but for what the report prints.
+    rows = [{"name": name, "normalized_depth": ratio, "text": f"{ratio:#.4g}"}
+            for name, ratio in ratios.items()]  # fmt: skip
+    observed = load().claims["observed-ratio"].printed
+    assert observed is not None
+    report = "the report’s experiment (section 2), whatever the inputs here"
+    rows.append({"name": report, "normalized_depth": float(observed.value), "text": observed.text})
+    return {"rows": rows, "longest": longest}
 
 
 def _resistance(impact: Impact, text: str) -> Table:
     """Return the resistance that gives a measured depth, and the proven range for its digits."""
     try:
+        depth = _number("measured_depth", text)
         answer = solve_printed(impact, "resistance", {"depth": text})
-    except ValueError as error:
-        return {"refused": str(error)}
-    return {"resistance": answer.value, "interval": answer.interval, "depth": answer.depth}
+    except InputError:
+        times = number(depth / impact.radius, 3)
+        return {"refused": f"Measured depth is {times} times the radius, too far to compute with"}
+    except ValueError as wrong:
+        return {"refused": str(wrong)}
+    return {
+        "resistance": answer.value, "depth": answer.depth,
+        "range": answer.interval and _in_gigapascals(answer.interval),
+        "fewest_digits": answer.fewest_digits and _in_gigapascals(answer.fewest_digits),
+    }  # fmt: skip
+
+
+def _in_gigapascals(interval: tuple[float, float]) -> str:
+    return f"{between([Fraction(end) / to_si('GPa') for end in interval], 5)} GPa"

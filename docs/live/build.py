@@ -57,8 +57,8 @@ def build(folder: Path) -> None:
         made.mkdir()
         fetched.mkdir()
         lock = _take_parts(parts, fetched, made)
-        _wheel_of_project(Path(scratch) / "source", made)
-        _stored_audit(made)
+        wheel = _wheel_of_project(Path(scratch) / "source", made)
+        _stored_audit(wheel, Path(scratch) / "program", made)
         _pages(parts, made)
         shutil.copytree(HERE / "licences", made / "licences")
         (made / "files.json").write_text(_list_of_files(made, lock), "utf-8")
@@ -113,7 +113,7 @@ def _run(command: list[str], folder: Path, **environment: str) -> None:
         raise BuildError(f"{' '.join(command)} failed: {last}")
 
 
-def _wheel_of_project(source: Path, made: Path) -> None:
+def _wheel_of_project(source: Path, made: Path) -> Path:
     """Make the project's wheel from a copy: what an earlier build left does not get into it."""
     source.mkdir()
     for name in ("pyproject.toml", "README.md", "LICENSE", "coldspray.py"):
@@ -124,11 +124,18 @@ def _wheel_of_project(source: Path, made: Path) -> None:
     pip = [sys.executable, "-m", "pip", "wheel", "--disable-pip-version-check", "--quiet"]
     # A fixed date makes the wheel the same bytes each time: 1980 is the first that a zip can have.
     _run([*pip, "--no-deps", "--wheel-dir", str(made), "."], source, SOURCE_DATE_EPOCH="315619200")
+    (wheel,) = made.glob("coldspray-*.whl")
+    return wheel
 
 
-def _stored_audit(made: Path) -> None:
-    """Write `audit.html` and `audit.json`, by the program that lies beside this file."""
-    sys.path.insert(0, str(ROOT))
+def _stored_audit(wheel: Path, program: Path, made: Path) -> None:
+    """Write `audit.html` and `audit.json`, by the program in the wheel.
+
+    So the stored audit is that of the program that the page has, and names its version, whatever
+    version is installed here; only the libraries are the installed ones.
+    """
+    shutil.unpack_archive(wheel, program, "zip")
+    sys.path.insert(0, str(program))
     try:
         from replication.audit.audit import audit
         from replication.report import contents
@@ -160,16 +167,26 @@ def _pages(parts: Parts, made: Path) -> None:
 
 
 def _page_of_parts(parts: Parts) -> str:
-    """Say of each part what it is, its licence, and where its source is."""
-    items = "\n".join(
-        f"<li><strong>{html.escape(name)} {html.escape(part['version'])}</strong>, from "
-        f"{html.escape(part['registry'])}: {html.escape(part['licence'])}. "
-        f'<a href="{html.escape(part["source"])}" rel="noreferrer">Source</a>. '
-        f"SHA-256 of {html.escape(part['archive'])}: <code>{part['sha256']}</code></li>"
-        for name, part in parts.items()
-    )
+    """Say of each part, and of what it contains, its licence, and where its source is."""
+    items = ""
+    for name, part in parts.items():
+        items += (
+            f"<li>{_named(name, part, part['registry'])} "
+            f"SHA-256 of {html.escape(part['archive'])}: <code>{part['sha256']}</code></li>\n"
+        )
+        for contained in part.get("contains", ()):
+            items += f"<li>{_named(contained['name'], contained, part['archive'])}</li>\n"
     page = (HERE / "parts.html").read_text("utf-8")
     return _filled(page, {"<!-- build.py puts the parts here -->": items})
+
+
+def _named(name: str, part: Mapping[str, Any], origin: str) -> str:
+    """Return the name, origin, licence and source of a part as HTML."""
+    return (
+        f"<strong>{html.escape(name)} {html.escape(part['version'])}</strong>, from "
+        f"{html.escape(origin)}: {html.escape(part['licence'])}. "
+        f'<a href="{html.escape(part["source"])}" rel="noreferrer">Source</a>.'
+    )
 
 
 def _filled(page: str, contents: Mapping[str, str]) -> str:
@@ -206,7 +223,10 @@ def main() -> int:
         print(f"build.py: {error}", file=sys.stderr)
         return 2
     size = sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
-    print(f"{folder}: {size / 1e6:.1f} MB. To look at it: python -m http.server -d {folder}")
+    print(
+        f"{folder}: {size / 1e6:.1f} MB. To look at it on this machine: python -m http.server -d "
+        f"{folder} (then http://localhost:8000); other machines need a host with https"
+    )
     return 0
 
 

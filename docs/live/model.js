@@ -7,11 +7,13 @@ const shown = (value, digits = 6) => String(Number(value.toPrecision(digits)));
 const nano = (seconds) => shown(seconds * 1e9);
 const micro = (meters) => shown(meters * 1e6, 7);
 const giga = (value) => shown(value / 1e9, 5);
+const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
 
 export class Model {
   constructor(python, hears) {
     this.python = python;
     this.hears = hears;
+    this.part = document.getElementById("model");
     this.form = document.getElementById("inputs");
     this.said = document.getElementById("said");
     this.figure = document.getElementById("figure");
@@ -40,7 +42,11 @@ export class Model {
     });
     new ResizeObserver(() => this.answer?.curve && this.draw(this.answer)).observe(this.figure);
     document.getElementById("compute").disabled = false;
-    if (this.fromAddress()) this.compute();
+    if (this.fromAddress()) {
+      this.part.open = true;
+      if (!location.hash) this.part.scrollIntoView();
+      this.compute();
+    }
   }
 
   // Take over the inputs of the address; return whether there are some.
@@ -51,7 +57,6 @@ export class Model {
       field.value = given.get(field.name);
       this.follow(field);
     }
-    if (named.length > 0) document.getElementById("model").open = true;
     return named.length > 0;
   }
 
@@ -97,41 +102,69 @@ export class Model {
       while (this.isStale) {
         this.isStale = false;
         const inputs = this.inputs();
-        this.show(await this.python.ask({ ask: "model", inputs }));
+        this.show(await this.python.ask({ ask: "model", inputs }), inputs);
+        this.hears.clear();
         this.said.dataset.asked = JSON.stringify(inputs); // the inputs that it is said of
       }
     } catch (error) {
       this.hears.sayWrong(error);
-      this.said.textContent = `Not computed: ${error.message}`;
+      this.refuse(error.message);
     }
     this.isAsking = false;
   }
 
-  show(answer) {
-    this.form.classList.toggle("wrong", answer.refused !== undefined);
+  // Say why nothing was computed; what is shown is of older inputs, and is dimmed.
+  refuse(why) {
+    this.said.textContent = `Not computed: ${why}`;
+    this.part.classList.add("old");
+  }
+
+  show(answer, inputs) {
     if (answer.refused !== undefined) {
-      this.said.textContent = `Not computed: ${answer.refused}`;
+      this.refuse(answer.refused);
       return;
     }
+    this.part.classList.remove("old");
     this.answer = answer;
     document.getElementById("results").hidden = false;
     const { sheet, depth, inverse } = answer;
     const bySheet = sheet.refused
       ? `The sheet was not run: ${sheet.refused}.`
-      : `The sheet: ${micro(sheet.depth)} µm after ${sheet.steps} steps, X/R ` +
+      : `The sheet: ${micro(sheet.depth)} µm after ${counted(sheet.steps, "step")}, X/R ` +
         `${shown(sheet.normalized_depth)}.`;
+    const doubtful = answer.warnings.length > 0 ? " Doubtful: see the warnings." : "";
     this.said.textContent =
       `Exact depth ${micro(depth)} µm, X/R ${shown(answer.normalized_depth)}, at rest after ` +
-      `${nano(answer.stop_time)} ns, for Rₜ = ${giga(answer.resistance)} GPa. ${bySheet}`;
+      `${nano(answer.stop_time)} ns, for Rₜ = ${giga(answer.resistance)} GPa. ${bySheet}${doubtful}`;
     this.said.dataset.depth = depth;
     this.said.dataset.sheet = sheet.depth ?? "";
+    const printed = inputs.measured_depth.replace(/ um$/, " µm");
+    const proven = inverse.range
+      ? ` Proven for all depths that are printed as ${printed}: ${inverse.range}.`
+      : "";
+    const fewest = inverse.fewest_digits
+      ? ` If the zeros that end it count for no digits: ${inverse.fewest_digits}.`
+      : "";
     document.getElementById("inverse").textContent = inverse.refused
-      ? `No resistance: ${inverse.refused}`
-      : `A depth of ${micro(inverse.depth)} µm takes Rₜ = ${giga(inverse.resistance)} GPa; ` +
-        `${inverse.interval.map(giga).join(" to ")} GPa for every depth that prints like it.`;
+      ? `No resistance: ${inverse.refused}.`
+      : `A depth of ${micro(inverse.depth)} µm takes Rₜ = ${giga(inverse.resistance)} GPa.${proven}${fewest}`;
+    this.showDoubts(answer);
     this.showRows(sheet);
     this.showApproaches(answer.approaches);
     this.draw(answer);
+  }
+
+  showDoubts({ warnings, notes }) {
+    const item = (kind, words) => {
+      const line = document.createElement("li");
+      line.className = kind;
+      line.textContent = `${kind}: ${words}.`;
+      return line;
+    };
+    document.getElementById("doubts").replaceChildren(
+      ...warnings.map((words) => item("Warning", words)),
+      ...notes.map((words) => item("Note", words)),
+    );
   }
 
   showRows(sheet) {
@@ -148,15 +181,14 @@ export class Model {
     for (const cells of rows) body.append(tableRow(cells));
   }
 
-  showApproaches(approaches) {
-    const most = Math.max(1, ...approaches.map((a) => a.normalized_depth));
+  showApproaches({ rows, longest }) {
     document.getElementById("approaches-live").replaceChildren(
-      ...approaches.map(({ name, normalized_depth: value }) => {
+      ...rows.map(({ name, normalized_depth: value, text }) => {
         const bar = document.createElement("meter");
-        bar.max = most;
+        bar.max = longest;
         bar.value = value;
         bar.setAttribute("aria-label", `X/R, ${name}`);
-        return tableRow([name, shown(value, 4), bar]);
+        return tableRow([name, text, bar]);
       }),
     );
   }
@@ -164,10 +196,10 @@ export class Model {
   // Figure 3 of the report: the exact motion as a line, rows of the sheet as marks on it.
   draw({ curve, sheet, depth }) {
     const width = Math.max(280, this.figure.clientWidth);
-    const height = Math.min(360, Math.max(240, width * 0.55));
+    const height = Math.min(360, Math.max(200, width * 0.55));
     const [left, top, right, bottom] = [46, 10, width - 12, height - 42];
-    const points = sheet.points ?? [];
-    const ends = [curve.at(-1), ...points];
+    const marks = sheet.points ?? [];
+    const ends = [curve.at(-1), ...marks];
     const times = ticks(Math.max(...ends.map(([t]) => t)) * 1e9);
     const depths = ticks(Math.max(...ends.map(([, x]) => x)) * 1e6);
     const across = (t) => left + ((right - left) * t * 1e9) / times.at(-1);
@@ -191,14 +223,16 @@ export class Model {
     svg.append(drawn("text", place, "Depth [µm]"));
     const line = curve.map(([t, x]) => `${across(t)},${down(x)}`).join(" ");
     svg.append(drawn("polyline", { class: "exact", points: line }));
-    for (const [t, x] of points) {
+    for (const [t, x] of marks) {
       svg.append(drawn("circle", { class: "row", cx: across(t), cy: down(x), r: 3.2 }));
     }
     this.figure.replaceChildren(svg);
-    const every = sheet.every === 1 ? "each row" : `every row whose number ${sheet.every} divides`;
-    document.getElementById("figure-words").textContent = sheet.refused
-      ? "Line: the exact motion. The sheet was not run."
-      : `Line: the exact motion. Points: the sheet, ${every}, and its last row.`;
+    const rows = sheet.every === 1 ? "each row" : `one row in ${sheet.every} and the last`;
+    const points = sheet.refused
+      ? "The sheet was not run."
+      : `Points: ${rows} of the sheet, in the middle of the step, where a row’s depth belongs.`;
+    document.getElementById("figure-words").textContent =
+      `Depth against time, as in Figure 3 of the report. Line: the exact motion. ${points}`;
   }
 }
 

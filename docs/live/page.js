@@ -25,10 +25,20 @@ function sayWrong(error) {
   state.classList.add("wrong");
 }
 
+// Nothing is wrong any more: what was said of it goes.
+function clear() {
+  if (!state.classList.contains("wrong")) return;
+  state.classList.remove("wrong");
+  say("");
+}
+
 async function begin() {
   say("Checking the files.");
   if (!globalThis.isSecureContext) {
-    throw new BrokenFile("files can be checked only on https or on this machine's own localhost");
+    throw new BrokenFile(
+      "files can be checked only on https, or at http://localhost. Put the folder on a host with " +
+        "https, or copy it to this machine and run python -m http.server -d FOLDER here",
+    );
   }
   const { files } = await listOfFiles(document.baseURI);
   for (const name of ["style.css", "files.js", "python.js", "prove.js", "model.js"]) {
@@ -42,9 +52,12 @@ async function begin() {
     import("./prove.js"),
     import("./model.js"),
   ]);
-  const python = new Python(files, ({ words, progress }) => showProgress(words, progress));
-  const hears = { say, showProgress, sayWrong, clear: () => state.classList.remove("wrong") };
-  new Proofs(python, stored, hears);
+  const python = new Python(files, ({ words, progress }) => {
+    showProgress(words, progress);
+    proofs.showStart(progress);
+  });
+  const hears = { say, showProgress, sayWrong, clear };
+  const proofs = new Proofs(python, stored, hears);
   new Model(python, hears);
   document.body.classList.add("live");
   say("");

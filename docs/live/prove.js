@@ -11,6 +11,7 @@ export class Proofs {
     this.entries = ["claim", "equation", "finding"].flatMap((kind) =>
       stored[`${kind}s`].map((document) => new Entry(kind, document)),
     );
+    this.wanted = new Set(); // entries whose own button was pressed while Python was not ready
     for (const entry of this.entries) entry.addMark(() => this.proveOne(entry));
     this.all = document.getElementById("prove-all");
     this.all.disabled = false;
@@ -19,15 +20,27 @@ export class Proofs {
 
   async proveOne(entry) {
     this.hears.clear();
+    this.wanted.add(entry);
     try {
       if (!this.running) this.hears.say(`Proving: ${entry.title}`);
+      entry.say("starting Python");
       await this.python.start();
+      entry.say("proving");
       await this.prove(entry);
       if (!this.running) this.hears.say(`${entry.title}: ${entry.words}.`);
       entry.button.focus({ preventScroll: true });
     } catch (error) {
+      entry.say(`not possible here: ${error.message}`);
       this.hears.sayWrong(error);
     }
+    this.wanted.delete(entry);
+  }
+
+  // How far the start of Python is, from 0 to 1, in the marks that wait for it; null at its end.
+  showStart(part) {
+    if (part === null) return;
+    const words = `starting Python, ${Math.round(100 * part)} %`;
+    for (const entry of this.wanted) entry.say(words);
   }
 
   async proveAll() {
@@ -93,6 +106,13 @@ class Entry {
     this.isCard = isCard;
   }
 
+  // What goes on, in place of a mark.
+  say(words) {
+    delete this.element.dataset.outcome;
+    this.shown.removeAttribute("title");
+    this.shown.textContent = words;
+  }
+
   // Show what came out; returns a key of SYMBOLS.
   mark(answer) {
     const outcome = outcomeOf(answer);
@@ -110,18 +130,23 @@ class Entry {
   }
 }
 
-function outcomeOf({ enclosure, differs }) {
+function outcomeOf({ range, differs }) {
   if (differs.some((difference) => !difference.last_digits)) return "differs";
   if (differs.length > 0) return "rounded";
-  return enclosure ? "proven" : "same";
+  return range ? "proven" : "same";
 }
 
 // What came out; where something differs, both values, and why that may be.
-function wordsOf(outcome, { verdict, computed, enclosure, unit, differs }) {
+function wordsOf(outcome, { verdict, computed, range, printed, unit, differs }) {
+  if (outcome === "proven") {
+    const where = range.includes(" to ") ? `lies from ${range}` : `is ${range}`;
+    return (
+      `proven again here: the printed ${printed} is ${verdict}. For all inputs that print as ` +
+      `the report’s do, the value ${where}`
+    );
+  }
   const value =
     typeof computed === "number" ? `: ${number(computed)}${unit === "1" ? "" : ` ${unit}`}` : "";
-  const range = enclosure ? `, proven to lie in [${enclosure.join(", ")}]` : "";
-  if (outcome === "proven") return `proven again here (${verdict}${value}${range})`;
   if (outcome === "same") return `the same again (${verdict}${value})`;
   const both = differs.map(({ where, stored, here }) => `${where}: stored ${stored}, here ${here}`);
   const [what, why] =

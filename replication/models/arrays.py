@@ -342,8 +342,11 @@ def _common_shape(arrays: Mapping[str, Any]) -> tuple[int, ...]:
 
 def _real(name: str, value: Any) -> Any:
     """Return a value as a float or an array of doubles; raise TypeError if it cannot be one."""
-    if isinstance(value, float | int) and abs(value) <= GREATEST:
-        return float(value)
+    if isinstance(value, float | int):
+        try:
+            return float(value)
+        except OverflowError as error:
+            raise TypeError(f"{name} must hold real numbers, in SI units: {error}") from error
     import numpy as np
 
     if isinstance(value, np.ma.MaskedArray):
@@ -364,11 +367,7 @@ def _refuse(
     numbers: Mapping[str, Any], range_check: Callable[..., None], result: Any = 0.0
 ) -> None:
     """Raise InputError for the first element that fails a check or has no finite result, if any."""
-    import numpy as np
-
-    arrays = np.broadcast_arrays(result, *numbers.values())
-    doubtful = _unusual(arrays[1:]) | ~np.isfinite(arrays[0])
-    for index, value, case in _elements(arrays, doubtful, numbers):
+    for index, value, case in _doubtful(numbers, result):
         try:
             check_inputs(case)
             range_check(**case)
@@ -380,12 +379,7 @@ def _refuse(
 
 def _refuse_solutions(numbers: Mapping[str, Any], name: str, result: Any, single: bool) -> None:
     """Raise InputError for the first element, if any, whose solution leaves the range of models."""
-    import numpy as np
-
-    arrays = np.broadcast_arrays(result, *numbers.values())
-    # Of usual inputs NaN can only mean that there is no solution.
-    doubtful = _unusual(arrays[1:]) | (_unusual(arrays[:1]) & (single | ~np.isnan(arrays[0])))
-    for index, value, case in _elements(arrays, doubtful, numbers):
+    for index, value, case in _doubtful(numbers, result, of_solutions=True):
         try:
             inverse.check_solution(name, value, **case)
         except inverse.NoSolutionError:
@@ -395,16 +389,27 @@ def _refuse_solutions(numbers: Mapping[str, Any], name: str, result: Any, single
             raise _at_place(error, index, case, numbers) from None
 
 
-def _elements(
-    arrays: Sequence[Any], where: Any, names: Iterable[str]
+def _doubtful(
+    numbers: Mapping[str, Any], result: Any, of_solutions: bool = False
 ) -> Iterator[tuple[tuple[int, ...], float, dict[str, float]]]:
-    """Yield index, result and inputs of each element there, from arrays of just these."""
+    """Yield index, result and inputs of each element that has to be checked by itself.
+
+    Those are elements with an input outside of `LEAST` to `GREATEST`, or whose result is not
+    finite; of solutions, which are inputs themselves, outside of that range, too.
+    """
+    if _are_floats({**numbers, "the result": result}):
+        yield (), result, dict(numbers)  # one case is checked in any event, and needs no NumPy
+        return
     import numpy as np
 
-    for place in np.argwhere(where).tolist():
+    arrays = np.broadcast_arrays(result, *numbers.values())
+    odd = ~np.isfinite(arrays[0])
+    if of_solutions:  # of usual inputs NaN can only mean that there is none
+        odd = _unusual(arrays[:1]) & ~np.isnan(arrays[0])
+    for place in np.argwhere(_unusual(arrays[1:]) | odd).tolist():
         index = tuple(place)
         value, *values = (float(array[index]) for array in arrays)
-        yield index, value, dict(zip(names, values, strict=True))
+        yield index, value, dict(zip(numbers, values, strict=True))
 
 
 def _unusual(arrays: Sequence[Any]) -> Any:
@@ -418,11 +423,9 @@ def _at_place(
     error: InputError, index: tuple[int, ...], case: Mapping[str, float], numbers: Mapping[str, Any]
 ) -> InputError:
     """Return an element's error with its index, and with its inputs if it is not one of them."""
-    import numpy as np
-
     name, problem = error.name, error.problem
     if name in numbers:  # give the index in that input's own array
-        shape = np.shape(numbers[name])
+        shape = getattr(numbers[name], "shape", ())
         places = zip(index[len(index) - len(shape) :], shape, strict=True)
         index = tuple(i if size > 1 else 0 for i, size in places)
     elif name != "the sheet":

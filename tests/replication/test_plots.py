@@ -4,6 +4,7 @@ import csv
 import json
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from xml.etree import ElementTree as ET
 
@@ -241,9 +242,28 @@ def test_the_sheet_is_marked_at_its_rows(figures: dict[str, Figure]) -> None:
     """Of 178 steps every sixth is marked, and the last."""
     marks = figures["sheet"].axes[0].get_lines()[1]
     rows = run(BETA_3).rows
-    assert marks.get_label() == "the sheet, one row of 6"
+    assert marks.get_label() == "the sheet, one row of 6, each in the middle of its step"
     expected = [row.depth * 1e6 for row in [*rows[::6], rows[-1]]]
     assert list(marks.get_ydata()) == expected
+
+
+def test_the_depths_of_a_coarse_sheet_are_drawn_where_the_motion_has_them() -> None:
+    """The first depth, V dt / 2, is that of half a step; at the row's time it would be half of it.
+
+    Near the touch x'' = -w^2 x, so that x = V t (1 - (w t)^2 / 6 + ...). For beta 5 w^2 is
+    6.24e15 / s^2, and at 0.5 ns the difference is 2.6e-4 of V t.
+    """
+    axes = plots.plot_sheet(run(replace(BETA_5, step=1e-9))).axes
+    (_, depths), (_, speeds) = (panel.get_lines()[:2] for panel in axes)
+    time, depth = (
+        [float(x) for x in data[:2]] for data in (depths.get_xdata(), depths.get_ydata())
+    )
+    assert (time[0], depth[0]) == (0.0, 0.0)
+    assert time[1] == pytest.approx(0.5)
+    exact = [0.0]
+    history([time[1] * 1e-9], **BETA_5.motion, depth=exact, speed=[0.0])
+    assert depth[1] == pytest.approx(exact[0] * 1e6, rel=3e-4)
+    assert list(speeds.get_xdata())[1] == pytest.approx(1.0)
 
 
 def test_a_map_without_contours_says_so(drawings: dict[str, bytes]) -> None:
@@ -281,6 +301,21 @@ def test_a_sweep_writes_its_file_and_its_figure(tmp_path: Path) -> None:
     with table.open() as file:
         assert len(list(csv.DictReader(file))) == 9
     assert {"Impact velocity [m/s]", "fit.csv"} <= set(shown(figure.read_bytes()))
+
+
+def test_columns_of_ones_own_points_that_are_not_drawn_are_named(tmp_path: Path) -> None:
+    data = own(tmp_path, "own.csv", "t [ns],x [um],size [um],std [um]\n5,2.4,22,0.1\n")
+    plotted = ("history", "--points", "2", "--plot", tmp_path / "figure.svg", "--data", data)
+    note = f"{data}: columns not used: 'size [um]'"
+    assert f"note: {note}" in " ".join(coldspray(*plotted)[1].split())
+    assert json.loads(coldspray(*plotted, "--json")[1])["notes"] == [note]
+
+
+def test_an_error_that_an_axis_shows_is_no_uncertainty(tmp_path: Path) -> None:
+    data = own(tmp_path, "own.csv", "dt [ns],error [nm],depth [um],sd [um]\n1,25,7.6,0.1\n")
+    points = plots.read_points(data, plots.STEP, (plots.ERROR, plots.DEPTH))
+    assert points.columns[plots.ERROR] == [25e-9]
+    assert points.columns[plots.UNCERTAINTY] == [0.1e-6]
 
 
 def test_a_fit_draws_further_points_that_it_does_not_fit(tmp_path: Path) -> None:

@@ -234,9 +234,8 @@ def _number_and_unit(text: str, unit: str) -> tuple[str, str]:
     plain = _TIMES_TEN.sub(r"e\1", in_ascii(text.strip())) if len(text) < 400 else ""
     match = _NUMBER.fullmatch(plain)
     if match is None:
-        raise ValueError(
-            f"{quoted(text, 40)} is not a finite number with or without a unit, such as '1 {unit}'"
-        )
+        example = "" if unit == "1" else f" with or without a unit, such as '1 {unit}'"
+        raise ValueError(f"{quoted(text, 40)} is not a finite number{example}")
     given_unit = match["unit"]
     if given_unit[:1] == ",":
         raise ValueError(
@@ -246,6 +245,16 @@ def _number_and_unit(text: str, unit: str) -> tuple[str, str]:
         mismatch = f"{given_unit} does not measure what {unit} does"
         raise ValueError(f"{text!r}: {'give no unit' if unit == '1' else mismatch}")
     return match["number"], given_unit or "1"
+
+
+def typed_unit(text: str) -> str:
+    """Return the unit with which a number is written, known or not; "" for none.
+
+    >>> typed_unit("5 ns"), typed_unit("5e-9"), typed_unit("ns")
+    ('ns', '', '')
+    """
+    match = _NUMBER.fullmatch(in_ascii(text.strip()))
+    return match["unit"].strip() if match else ""
 
 
 def read_number(text: str, unit: str) -> float:
