@@ -165,6 +165,7 @@ TYPED: Mapping[tuple[int, int], Content] = {
     pytest.param("=LOG(8,2)", 3.0, id="LOG to the base 2"),
     pytest.param("=LOG10(1000)", 3.0, id="LOG10"),
     pytest.param("=SIGN(-2)", -1.0, id="SIGN"),
+    pytest.param("=SIGN(0)", 0.0, id="SIGN of zero"),
     pytest.param("=CEILING(2.25,0.5)", 2.5, id="CEILING"),
     pytest.param("=FLOOR(2.75,0.5)", 2.5, id="FLOOR"),
     pytest.param("=ROUNDDOWN(2.789,2)", 2.78, id="ROUNDDOWN"),
