@@ -23,8 +23,9 @@ Function = Callable[..., Number | Fraction]
 class Arithmetic:
     """The functions that the formulas need besides the operators, by default for single numbers.
 
-    `power` needs x > 0 unless the exponent is an integer. `cap_work` is y^2 - y^3/3 for y in [0,
-    1], and `cap_root` is the y with that value, for one in [0, 2/3]. `exp_mean_root` is the x >= 0
+    `power` needs x > 0 unless the exponent is an integer. `cap_volume` is y^2 - y^3/3 for y in [0,
+    1], the volume of a cap of height y R over pi R^3, and `cap_root` is the y with that value, for
+    one in [0, 2/3]. `exp_mean_root` is the x >= 0
     at which (e^x - 1) / x, the mean of e^t for t from 0 to x, is k >= 1. `below` is whether
     x < bound; None if that is not known of all numbers in an interval.
     """
@@ -55,7 +56,7 @@ class Arithmetic:
         third = self.asin(self.sqrt(3 * c) / 2) / 3
         return 2 * self.sin(third) ** 2 + self.sqrt(self.number(3)) * self.sin(2 * third)
 
-    def cap_work(self, y: Number) -> Number:
+    def cap_volume(self, y: Number) -> Number:
         return y * y * (3 - y) / 3
 
     def exp_mean_slope(self, x: Number) -> Number:
@@ -304,8 +305,8 @@ class Duals(Arithmetic):
     def contact_share(self, y: Dual) -> Dual:
         return y.scaled(self.arithmetic.contact_share(y.value), 2 - 2 * y.value)
 
-    def cap_work(self, y: Dual) -> Dual:
-        return y.scaled(self.arithmetic.cap_work(y.value), self.arithmetic.contact_share(y.value))
+    def cap_volume(self, y: Dual) -> Dual:
+        return y.scaled(self.arithmetic.cap_volume(y.value), self.arithmetic.contact_share(y.value))
 
     def cap_root(self, c: Dual) -> Dual:
         y = self.arithmetic.cap_root(c.value)

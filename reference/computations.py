@@ -169,7 +169,7 @@ def crater_normalized_depth(ar: Arithmetic, volume_ratio: Number) -> Number:
 
 
 @computation()
-def crater_depth(ar: Arithmetic, volume_ratio: Number, diameter: Number) -> Number:
+def crater_depth_by_diameter(ar: Arithmetic, volume_ratio: Number, diameter: Number) -> Number:
     """X at the given CV/PV and particle diameter, from Eqs. 2 and 3"""
     return crater_normalized_depth(ar, volume_ratio) * diameter / 2
 
@@ -219,7 +219,7 @@ def walker_anderson_alpha(
 
 
 @computation("eq10", "eq11")
-def walker_anderson_beta(
+def walker_anderson_beta_of_target(
     ar: Arithmetic, eq: Equations, elastic_modulus: Number, flow_stress: Number
 ) -> Number:
     """beta from Eqs. 10 and 11"""

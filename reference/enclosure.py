@@ -113,7 +113,7 @@ def _middle(box: Box) -> dict[str, Fraction]:
     return {name: (low + high) / 2 for name, (low, high) in box.items()}
 
 
-class Solutions(msgspec.Struct, frozen=True):
+class SolutionSet(msgspec.Struct, frozen=True):
     """The values of one input, in the range `search`, for which a function lies in its target.
 
     Every value in the intervals `inner` is proven to be a solution, and every value of the search
@@ -142,7 +142,7 @@ def find_solutions(
     target: Interval,
     budget: int = 200,
     others: Mapping[str, Fraction] = {},
-) -> Solutions:
+) -> SolutionSet:
     """Return the values of one input, the others given, for which the function lies in the target.
 
     A part of the search on which the function is proven monotone is solved by bisection; any other
@@ -179,7 +179,7 @@ def find_solutions(
             between = first[1], last[0]
             if between[0] <= between[1] and all(target.encloses(*value(x)) for x in between):
                 inner.append(between)
-    return Solutions(search, _union(inner), _union(outer))
+    return SolutionSet(search, _union(inner), _union(outer))
 
 
 def _crossing(

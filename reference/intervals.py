@@ -166,7 +166,7 @@ class Intervals(Arithmetic):
                 raise ArithmeticError("a root of y^2 - y^3/3 = c could not be verified")
         return Span(low, high)
 
-    def cap_work(self, y: Number) -> Number:
+    def cap_volume(self, y: Number) -> Number:
         return _increasing(lambda end: end * end * (3 - end) / 3, y)
 
     def exp_mean_root(self, k: Number) -> Number:

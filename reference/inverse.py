@@ -1,7 +1,7 @@
 """Which input gives a final depth, in any arithmetic: to any precision, and as a proven interval.
 
 The integral of Eq. 13 (`reference.motion`), solved for each of its inputs. With y = X/R and the
-work W(y), the contact area over pi R^2 integrated from 0 to y, an impact that ends at depth X has
+area integral W(y), of the contact area over pi R^2 from 0 to y, an impact that ends at depth X has
 
     W(y) = (4 rho_p / 3 rho_t) L, L = ln(1 + rho_t V^2 / 2 R_t).
 
@@ -16,18 +16,18 @@ from reference.arithmetic import Arithmetic, Number
 from reference.enclosure import Box, Ends, enclose
 
 
-def work(ar: Arithmetic, y: Number) -> Number:
+def area_integral(ar: Arithmetic, y: Number) -> Number:
     """Return W(y) [1]: y^2 - y^3/3 up to y = 1, and y - 1/3 beyond.
 
     >>> from reference.arithmetic import Rationals
-    >>> work(Rationals(), Fraction(3, 10)), work(Rationals(), Fraction(2))
+    >>> area_integral(Rationals(), Fraction(3, 10)), area_integral(Rationals(), Fraction(2))
     (Fraction(81, 1000), Fraction(5, 3))
     """
     radius = ar.number(1)  # not y - least(y, 1), which is wide for an interval of y
-    return ar.cap_work(ar.least(y, radius)) + (ar.greatest(y, radius) - 1)
+    return ar.cap_volume(ar.least(y, radius)) + (ar.greatest(y, radius) - 1)
 
 
-def depth_of_work(ar: Arithmetic, c: Number) -> Number:
+def depth_of_area_integral(ar: Arithmetic, c: Number) -> Number:
     """Return the y [1] at which W(y) = c."""
     at_radius = ar.number(Fraction(2, 3))
     return ar.cap_root(ar.least(c, at_radius)) + (ar.greatest(c, at_radius) - at_radius)
@@ -37,7 +37,7 @@ def _logarithm(
     ar: Arithmetic, depth: Number, radius: Number, particle_density: Number, target_density: Number
 ) -> Number:
     """Return L [1] of the impact that ends at this depth."""
-    return 3 * work(ar, depth / radius) / 4 * (target_density / particle_density)
+    return 3 * area_integral(ar, depth / radius) / 4 * (target_density / particle_density)
 
 
 def resistance(
@@ -65,7 +65,7 @@ def radius(
     """Return R [m] = X / y; y does not depend on R."""
     p = target_density * velocity**2 / (2 * resistance)
     c = 4 * particle_density / (3 * target_density) * ar.log1p(p)
-    return depth / depth_of_work(ar, c)
+    return depth / depth_of_area_integral(ar, c)
 
 
 def particle_density(
@@ -74,7 +74,7 @@ def particle_density(
 ) -> Number:  # fmt: skip
     """Return rho_p [kg/m^3] = (3/4) W rho_t / ln(1 + rho_t V^2 / 2 R_t)."""
     p = target_density * velocity**2 / (2 * resistance)
-    return 3 * work(ar, depth / radius) * target_density / (4 * ar.log1p(p))
+    return 3 * area_integral(ar, depth / radius) * target_density / (4 * ar.log1p(p))
 
 
 def target_density(
@@ -86,7 +86,7 @@ def target_density(
     m = rho_p V^2 / 2 R_t is (3/4) W in a target without density. If m is not greater than (3/4) W,
     there is no solution, and NoRootError is raised; over intervals 0 stands for what has none.
     """
-    ratio = 3 * work(ar, depth / radius) / 4
+    ratio = 3 * area_integral(ar, depth / radius) / 4
     most = particle_density * velocity**2 / (2 * resistance)
     return particle_density * ar.exp_mean_root(most / ratio) / ratio
 

@@ -51,12 +51,12 @@ def sheet_rows(
         area_over_mass = ar.pi * radius * radius / mass
 
     is_centered = scheme is Scheme.CENTERED
-    drag, push = target_density / 2 * area_over_mass, resistance * area_over_mass
+    inertial, strength = target_density / 2 * area_over_mass, resistance * area_over_mass
     half_step, per_radius, unity = step / 2, 1 / radius, ar.number(1)
 
     def deceleration(x: Number, v: Number) -> Number:
         # Eqs. 12-13: the contact area over pi R^2 is 2y - y^2 up to y = x/R = 1, and 1 beyond.
-        return (drag * v**2 + push) * ar.contact_share(ar.least(x * per_radius, unity))
+        return (inertial * v**2 + strength) * ar.contact_share(ar.least(x * per_radius, unity))
 
     x, v = velocity * half_step, velocity
     for _ in range(most_rows):
@@ -91,9 +91,10 @@ class Trajectory:
     """The exact motion, from the separated Eq. 13.
 
     With y = x/R, u = v/V and time in units of R/V, the acceleration is
-    du/dt = -(drag u^2 + push) A(y), where the contact area over pi R^2 is A(y) = 2y - y^2 up to
-    y = 1, and 1 beyond. The integral of A from 0 to y is called the work. `final_depth` [m] is the
-    depth at rest. A depth or a velocity that the particle never has raises ValueError.
+    du/dt = -(inertial u^2 + strength) A(y): the stress is an inertial part, rho_t v^2 / 2, and the
+    target's strength, R_t. The contact area over pi R^2 is A(y) = 2y - y^2 up to y = 1, and 1
+    beyond; its integral from 0 to y is called the area integral. `final_depth` [m] is the depth at
+    rest. A depth or a velocity that the particle never has raises ValueError.
 
     >>> motion = Trajectory(*map(Fraction, ("500", "11e-6", "8900", "7850", "35e8")), digits=20)
     >>> print(motion.context.nstr(motion.final_depth * 10**6, 12))
@@ -115,24 +116,29 @@ class Trajectory:
         self.reals = Reals(digits + 20)  # guard digits
         self.context = self.reals.context
         self.velocity, self.radius = self.reals.number(velocity), self.reals.number(radius)
-        self.drag = self.reals.number(3 * target_density / (8 * particle_density))
-        self.push = self.reals.number(3 * resistance / (4 * particle_density * velocity**2))
-        self._final = self._depth_of(self.context.log1p(self.drag / self.push) / (2 * self.drag))
+        self.inertial = self.reals.number(3 * target_density / (8 * particle_density))
+        self.strength = self.reals.number(3 * resistance / (4 * particle_density * velocity**2))
+        self._final = self._depth_of(
+            self.context.log1p(self.inertial / self.strength) / (2 * self.inertial)
+        )
         self.final_depth = self.radius * self._final
 
     def _depth_of(self, c: Number) -> Number:
-        """Return y at work c: the root of y^2 - y^3/3 = c up to y = 1 (c = 2/3), else c + 1/3."""
+        """Return y where the area integral is c.
+
+        The root of y^2 - y^3/3 = c up to y = 1 (c = 2/3), else c + 1/3.
+        """
         return self.reals.cap_root(c) if 3 * c < 2 else c + self.context.mpf(1) / 3
 
     def _velocity(self, left: Number) -> Number:
         """Return u = v/V at the depth that is `left` radii short of the final depth."""
         beyond = self.reals.greatest(self._final - 1, self.context.zero)  # radii with A = 1
-        work = left  # from this depth to the final one, in a form without cancellation
+        area_integral = left  # from this depth to the final one, in a form without cancellation
         if left > beyond:
             y, rest = min(self._final, self.context.one), left - beyond
-            work = beyond + rest * (2 * y - y * y - rest * (1 - y) - rest * rest / 3)
-        gained = self.context.expm1(2 * self.drag * work)
-        return self.context.sqrt(self.push / self.drag * gained)
+            area_integral = beyond + rest * (2 * y - y * y - rest * (1 - y) - rest * rest / 3)
+        gained = self.context.expm1(2 * self.inertial * area_integral)
+        return self.context.sqrt(self.strength / self.inertial * gained)
 
     def velocity_at_depth(self, depth: Number) -> Number:
         """Return the velocity [m/s] at a depth [m]."""
@@ -150,8 +156,8 @@ class Trajectory:
         u = self.context.convert(velocity) / self.velocity
         if abs(u) > 1:
             raise ValueError(f"the particle never has a velocity of {velocity} m/s")
-        lost = (1 - u) * (1 + u) * self.drag / (self.push + self.drag * u * u)
-        return self.radius * self._depth_of(self.context.log1p(lost) / (2 * self.drag))
+        lost = (1 - u) * (1 + u) * self.inertial / (self.strength + self.inertial * u * u)
+        return self.radius * self._depth_of(self.context.log1p(lost) / (2 * self.inertial))
 
     def time_to_depth(self, depth: Number) -> Number:
         """Return the time [s] to reach a depth [m]."""
@@ -159,7 +165,7 @@ class Trajectory:
         if start >= 1:
             return self.context.zero
         # More panels for a steeper integrand, and an edge at y = 1, where A(y) is not smooth.
-        count = int(self.context.log1p(self.drag / self.push) / 2) + 1
+        count = int(self.context.log1p(self.inertial / self.strength) / 2) + 1
         edges = [self.context.mpf(k) / count for k in range(1, count + 1)]
         if final > 1:
             edges.append(self.context.sqrt(1 - 1 / final))

@@ -6,7 +6,7 @@ never rounds: an inch is 254/10000 m, and a pound-force 0.45359237 * 9.80665 N.
 """
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 from fractions import Fraction
 from functools import cache
@@ -136,10 +136,39 @@ def _advice(unit: str, expected: str | None = None) -> str:
 
     If the `expected` dimension is known, a unit that measures it may be less similar.
     """
+    if known := _named_in(_OTHER_NAMES, unit):
+        return f"did you mean {known}?"
+    if known := _named_in(_CONVERTIBLE, unit):
+        return f"convert it to {known}"
     meant = [] if expected is None else _similar(unit, _units_like(expected), cutoff=0.5)
     if meant := meant or _similar(unit, [*_UNITS], cutoff=0.7):
         return f"did you mean {' or '.join(meant)}?"
     return "take one such as um, ns, m/s, kg/m^3, MPa or ksi"
+
+
+_OTHER_NAMES = {
+    "um": "micron microns micrometer micrometers micrometre micrometres",
+    "ns": "nanosecond nanoseconds nsec",
+    "us": "microsecond microseconds usec",
+    "s": "second seconds sec",
+    "m": "meter meters metre metres",
+    "m/s": "mps m/sec",
+    "in": "inches",
+    "ft": "feet foot",
+    "Pa": "pascal pascals",
+    "MPa": "megapascal megapascals",
+    "GPa": "gigapascal gigapascals",
+}
+"""How else users write units that are known here, in small letters."""
+
+_CONVERTIBLE = {"m/s": "mph mi/h km/h kmh kph knots", "Pa": "atm torr mmhg", "s": "h min"}
+"""Units that are not known here, in small letters, by one that measures the same."""
+
+
+def _named_in(names: Mapping[str, str], unit: str) -> str:
+    """Return the unit that has this name among its others, or ""."""
+    name = unit[:_LONGEST].lower()
+    return next((known for known, others in names.items() if name in others.split()), "")
 
 
 def _units_like(expected: str) -> list[str]:

@@ -17,7 +17,7 @@ from replication.models.alternatives import (
     Rigid,
 )
 from replication.models.impact import Impact, InputError
-from replication.reading import (
+from replication.user_input import (
     advice,
     place,
     quoted,

@@ -13,12 +13,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from reference.units import UnitError, unit_dimension
-from replication.reading import content_of, place, quoted, read_number
+from replication.user_input import content_of, place, quoted, read_number
 
 LARGEST_FILE = 2**26
 
 _BRACKETS = re.compile(r"(?P<name>.*?)[\s/,]*(?:\[(?P<square>.*)\]|\((?P<round>.*)\))")
 _SEPARATOR = re.compile(r"[\s,_/]+")
+_PLUS_MINUS = re.compile(r"±|\+/?-")
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +57,12 @@ class Column:
                 with place(f"{self.file}, line {line}, column {quoted(self.head)}"):
                     if not text:
                         raise ValueError("the cell is empty")
+                    if _PLUS_MINUS.search(text):
+                        unit_here = f" [{self.unit}]" if self.unit else ""
+                        raise ValueError(
+                            f"{quoted(text)} is a number and its uncertainty: put that into a "
+                            f"column of its own, 'uncertainty{unit_here}'"
+                        )
                     numbers.append(read_number(f"{text} {own}".strip(), unit))
             except ValueError as error:
                 errors.append((line, error))
@@ -163,6 +170,25 @@ def _is_unit(text: str) -> bool:
     except UnitError:
         return False
     return True
+
+
+def not_among(columns: Iterable[Column], used: Iterable[Column]) -> list[Column]:
+    """Return the columns that are not among those used."""
+    heads = {column.head for column in used}
+    return [column for column in columns if column.head not in heads]
+
+
+def note_of_unused(columns: Sequence[Column], used: Iterable[Column]) -> list[str]:
+    """Return a note that names the columns that are not among those used; none if all are.
+
+    >>> mine = [Column("my.csv", head, head, "", (), ()) for head in ("v", "x", "shot")]
+    >>> note_of_unused(mine, mine[:2])
+    ["my.csv: columns not used: 'shot'"]
+    """
+    heads = [quoted(column.head) for column in not_among(columns, used)]
+    more = [f"and {len(heads) - 12} more"] if len(heads) > 12 else []
+    text = f"columns not used: {', '.join(heads[:12] + more)}"
+    return [f"{columns[0].file}: {text}"] if heads else []
 
 
 def column_of(columns: Sequence[Column], names: Sequence[str]) -> Column | None:

@@ -5,16 +5,16 @@ residuals, each over its uncertainty if the data have that.
 """
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
 from replication.cases import INPUTS, OTHER_FACTOR, other_factor
-from replication.columns import bad_rows, column_of, read_columns
+from replication.columns import Column, bad_rows, column_of, not_among, read_columns
 from replication.models.depth import elasticities, final_depth
-from replication.models.impact import Impact, InputError, check_inputs
-from replication.reading import advice, place, quoted
+from replication.models.impact import Impact, InputError
+from replication.user_input import advice, printable, quoted, typed_unit
 
 FITTABLE = ("resistance", *OTHER_FACTOR)
 """What can be fitted."""
@@ -23,14 +23,21 @@ HEADS = {
     "velocity": ("velocity", "impact velocity", "v"),
     "depth": ("depth", "penetration depth", "final depth", "x"),
     "normalized_depth": ("normalized depth", "depth over radius", "x/r"),
-    "uncertainty": ("uncertainty", "depth uncertainty", "uncertainty of depth", "sigma"),
+    "uncertainty": (
+        "uncertainty", "depth uncertainty", "uncertainty of depth", "u(depth)", "u(x)", "sigma",
+        "standard deviation", "std", "sd", "stdev", "depth std", "depth sd",
+        "error", "depth error", "error of depth", "standard error", "err", "±", "+/-", "+-",
+    ),
     "radius": ("radius", "particle radius", "r"),
+    "diameter": (
+        "diameter", "particle diameter", "d", "dia", "dia.", "particle dia", "particle dia.",
+    ),
     "particle_density": ("particle density",),
     "target_density": ("target density",),
-}
+}  # fmt: skip
 """The names by which columns are known: what is measured, and inputs that may differ by row."""
 
-_UNITS = INPUTS | {"depth": "m", "normalized_depth": "1"}
+_UNITS = INPUTS | {"depth": "m", "normalized_depth": "1", "diameter": "m"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,42 +89,96 @@ def read_measurements(path: Path, impact: Impact) -> list[Measurement]:
     """Read measurements from a file of columns (`replication.columns`), by the names in `HEADS`.
 
     It must have columns of the velocity, and of the depth or the normalized depth X/R; an
-    uncertainty is that of the column it has. Inputs that it does not have are the case's. Raises
-    OSError, or ValueError that names the file and the line.
+    uncertainty is that of the column it has. Of a diameter the radius is half. Inputs that it does
+    not have are the case's, and further columns are ignored: `measurement_columns` says which.
+    Raises OSError, or ValueError that names the file and the line.
     """
-    columns = read_columns(path)
+    return measurements_in(read_columns(path), impact)
+
+
+def measurement_columns(columns: Sequence[Column]) -> dict[str, Column]:
+    """Return those columns of a file that have measurements, by the key of their names in `HEADS`.
+
+    Raises ValueError that names the file if some are missing, or say the same twice.
+    """
     by_name = {name: column_of(columns, names) for name, names in HEADS.items()}
-    if by_name["depth"] and by_name["normalized_depth"]:
-        raise ValueError(f"{path} has both a depth and a normalized depth: leave one of them out")
-    measured = "normalized_depth" if by_name["normalized_depth"] else "depth"
-    for name in ("velocity", measured):
-        if by_name[name] is None:
-            heads = {column.name: quoted(column.head) for column in columns}
-            similar = get_close_matches(name, heads, n=1)
-            named = f"name {heads[similar[0]] if similar else 'one'} so"
-            raise ValueError(
-                f"{path} has no column {name!r}: {named}, such as '{name} [{_UNITS[name]}]' "
-                f"(it has {', '.join([*heads.values()][:6])})"
-            )
+    known = {name: column for name, column in by_name.items() if column}
+    file = columns[0].file
+    for first, second in (("depth", "normalized_depth"), ("radius", "diameter")):
+        if first in known and second in known:
+            words = second.replace("_", " ")
+            raise ValueError(f"{file} has both a {first} and a {words}: leave one of them out")
+    missing = [] if "velocity" in known else ["velocity"]
+    if "depth" not in known and "normalized_depth" not in known:
+        missing.append("depth")
+    if missing:
+        rest = {column.name: quoted(column.head) for column in not_among(columns, known.values())}
+        named = [_to_be_named(name, rest) for name in missing]
+        has = ", ".join([quoted(column.head) for column in columns][:6])
+        no_columns = " and no column ".join(repr(name) for name in missing)
+        raise ValueError(
+            f"{file} has no column {no_columns}: {', and '.join(named)} (it has {has})"
+        )
+    return known
+
+
+def _to_be_named(name: str, heads: Mapping[str, str]) -> str:
+    """Return which column is to be named so, if one has a similar name, and with which unit."""
+    similar = get_close_matches(name, heads, n=1)
+    which = heads[similar[0]] if similar else "one"
+    return f"name {which} so, such as '{name} [{_UNITS[name]}]'"
+
+
+def measurements_in(columns: Sequence[Column], impact: Impact) -> list[Measurement]:
+    """Return the measurements that columns of a file have, as `read_measurements` reads them."""
+    known = measurement_columns(columns)
+    measured = "depth" if "depth" in known else "normalized_depth"
+    if "uncertainty" in known:
+        check_uncertainty(known["uncertainty"], known[measured])
     units = _UNITS | {"uncertainty": _UNITS[measured]}
-    numbers = {name: column.numbers(units[name]) for name, column in by_name.items() if column}
+    numbers = {name: column.numbers(units[name]) for name, column in known.items()}
     case = {name: impact.motion[name] for name in HEADS if name in impact.motion}
     measurements, errors = [], []
     for k, line in enumerate(columns[0].lines):
-        row = case | {name: values[k] for name, values in numbers.items()}
         try:
-            with place(f"{path}, line {line}"):
-                check_inputs(row)
-            if "normalized_depth" in row:
-                row["depth"] = row.pop("normalized_depth") * row["radius"]
-                if "uncertainty" in row:
-                    row["uncertainty"] *= row["radius"]
-            measurements.append(Measurement(**row, line=line))
+            for name, column in known.items():
+                _check_positive(numbers[name][k], name, column, k)
         except ValueError as error:
             errors.append((line, error))
+            continue
+        row = case | {name: values[k] for name, values in numbers.items()}
+        if "diameter" in row:
+            row["radius"] = row.pop("diameter") / 2
+        if "normalized_depth" in row:
+            row["depth"] = row.pop("normalized_depth") * row["radius"]
+            if "uncertainty" in row:
+                row["uncertainty"] *= row["radius"]
+        measurements.append(Measurement(**row, line=line))
     if errors:
         raise bad_rows(errors)
     return measurements
+
+
+def check_uncertainty(uncertainty: Column, depth: Column) -> None:
+    """Raise ValueError if uncertainties are plain numbers beside depths with a unit.
+
+    They would be metres, and are meant in the unit of the depths.
+    """
+    unit = "" if depth.unit == "1" else depth.unit
+    if unit and not uncertainty.unit and not all(map(typed_unit, uncertainty.texts)):
+        head = quoted(uncertainty.head)
+        raise ValueError(
+            f"{uncertainty.file}, column {head}: has no unit, beside {quoted(depth.head)}: write "
+            f"'{uncertainty.head} [{unit}]' if it is in {unit}"
+        )
+
+
+def _check_positive(value: float, name: str, column: Column, row: int) -> None:
+    """Raise ValueError if a number of a column is not above zero; it is shown as it was typed."""
+    if not 0 < value < math.inf:
+        where = f"{column.file}, line {column.lines[row]}: {name.replace('_', ' ')}"
+        typed = f"{column.texts[row]} {'' if column.unit == '1' else column.unit}".strip()
+        raise ValueError(f"{where} is {printable(typed)}: it must be a number greater than zero")
 
 
 def fit(impact: Impact, measurements: Sequence[Measurement], quantity: str = "resistance") -> Fit:
@@ -215,7 +276,8 @@ def _own_resistance(measurement: Measurement) -> float:
         return float(arrays.resistance_for_depth(measurement.depth, *measurement.impact))
     except InputError as error:
         where = f"line {measurement.line}: " if measurement.line else ""
-        radii = f"{measurement.depth / measurement.radius:.3g} times the radius"
-        unitless = measurement.line and measurement.depth > 1e3 * measurement.radius
-        meant = "; does its head lack a unit, such as 'depth [um]'?" if unitless else ""
-        raise ValueError(f"{where}the depth is {radii}: {error}{meant}") from error
+        radii = f"the depth is {measurement.depth / measurement.radius:.3g} times the radius"
+        if measurement.line and measurement.depth > 1e3 * measurement.radius:
+            where += "does the depth's head lack a unit, such as 'depth [um]'? "
+            raise ValueError(f"{where}({radii}: {error})") from error
+        raise ValueError(f"{where}{radii}: {error}") from error

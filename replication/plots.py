@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from replication.cases import INPUTS
-from replication.columns import column_of, read_columns
-from replication.fit import HEADS, Fit, Measurement
+from replication.columns import Column, column_of, not_among, note_of_unused, read_columns
+from replication.fit import HEADS, Fit, Measurement, check_uncertainty
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.motion import history, stop_time
@@ -185,10 +185,14 @@ def _in_words(name: str, value: float) -> str:
 
 @dataclass(frozen=True, slots=True)
 class Points:
-    """One's own points: the name of their file, and columns [SI] by quantity, of equal length."""
+    """One's own points: the name of their file, and columns [SI] by quantity, of equal length.
+
+    `notes` says which columns of the file are not used.
+    """
 
     file: str
     columns: Mapping[AxisQuantity, Sequence[float]]
+    notes: Sequence[str] = ()
 
     def draw(
         self, panel: "Axes", x: AxisQuantity, y: AxisQuantity, *, further: bool = False
@@ -228,11 +232,16 @@ def read_points(path: Path, x: AxisQuantity | None, ys: Sequence[AxisQuantity]) 
     ValueError that names the file and what it lacks.
     """
     columns = read_columns(path)
-    numbers: dict[AxisQuantity, Sequence[float]] = {}
+    known: dict[AxisQuantity, Column] = {}
+    # What is left may be the uncertainty: an "error" that an axis shows is none.
     for quantity in (*([x] if x else ()), *ys, UNCERTAINTY):
-        column = column_of(columns, quantity.names)
-        if column is not None:
-            numbers[quantity] = column.numbers(quantity.si)
+        if column := column_of(not_among(columns, known.values()), quantity.names):
+            known[quantity] = column
+    if UNCERTAINTY in known and DEPTH in known:
+        check_uncertainty(known[UNCERTAINTY], known[DEPTH])
+    elif DEPTH not in known:
+        known.pop(UNCERTAINTY, None)  # bars are those of a depth
+    numbers = {quantity: column.numbers(quantity.si) for quantity, column in known.items()}
     lacks = "" if x is None or x in numbers else f"'{_head(x)}'"
     if not any(y in numbers for y in ys):
         wanted = " or ".join(f"'{_head(y)}'" for y in ys)
@@ -240,7 +249,7 @@ def read_points(path: Path, x: AxisQuantity | None, ys: Sequence[AxisQuantity]) 
     if lacks:
         has = ", ".join(repr(column.head) for column in columns[:6])
         raise ValueError(f"{path} has no column {lacks} (it has {has})")
-    return Points(path.name, numbers)
+    return Points(path.name, numbers, note_of_unused(columns, known.values()))
 
 
 def _head(quantity: AxisQuantity) -> str:

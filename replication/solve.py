@@ -12,7 +12,7 @@ from fractions import Fraction
 from replication.cases import INPUTS, OTHER_FACTOR, changed, other_factor
 from replication.models import arrays, inverse
 from replication.models.impact import Impact
-from replication.reading import advice, place, quoted, read_number, read_printed
+from replication.user_input import advice, place, quoted, read_number, read_printed
 
 QUANTITIES = {
     name: INPUTS[name]

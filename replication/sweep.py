@@ -24,7 +24,7 @@ from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
 from replication.models.estimates import particle_velocity
 from replication.models.impact import Impact, InputError, check_inputs, particle_mass
-from replication.reading import (
+from replication.user_input import (
     KeyedError,
     advice,
     check_keys,

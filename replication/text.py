@@ -56,6 +56,19 @@ def number(value: float | Fraction, digits: int = 6) -> str:
     return f"{float(value):.{digits}g}"
 
 
+def in_percent(share: float, digits: int = 3) -> str:
+    """Write a share as per cent, rounded to some significant digits, without a power of ten.
+
+    Only from a million per cent on, where nobody counts the zeros, there is one.
+
+    >>> in_percent(5.9), in_percent(214.3), in_percent(0.01234), in_percent(3e7)
+    ('590 %', '21400 %', '1.23 %', '3e+09 %')
+    """
+    text = number(100 * share, digits)
+    is_long = "e+" in text and abs(share) < 1e4
+    return f"{float(text):.0f} %" if is_long else f"{text} %"
+
+
 def powers_of_ten(text: str) -> str:
     """Write the exponents in a text as powers of ten.
 

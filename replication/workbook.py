@@ -499,7 +499,7 @@ def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
         "contact_um": contact * 1e6,
     }
     for which, name in (("crater", "CV_PV"), ("line", "CV_PV_line")):
-        y = crater.depth_from_volume_ratio(si[name])
+        y = crater.normalized_depth_from_volume_ratio(si[name])
         x = y * radius
         volume = crater.cap_volume(x, radius)
         volume_key = {"crater": "CV_crater_um3", "line": "CV_line_again_um3"}[which]

@@ -520,6 +520,7 @@ class Evaluator:
         self.reasons: dict[Position, str] = {}
         self.work = 0
         self._shapes: dict[tuple[str, str], Shape] = {}
+        self._with_subtotal: dict[Shape, bool] = {}
         for place, cell in book.cells():
             if cell.formula is None:
                 if cell.value is not None:
@@ -562,7 +563,11 @@ class Evaluator:
     def has_subtotal(self, place: Position) -> bool:
         """Whether a cell has a formula with SUBTOTAL, which other subtotals leave out."""
         shape = self.formulas.get(place)
-        return shape is not None and "SUBTOTAL(" in shape.key.upper()
+        if shape is None:
+            return False
+        if shape not in self._with_subtotal:
+            self._with_subtotal[shape] = "SUBTOTAL(" in shape.key.upper()
+        return self._with_subtotal[shape]
 
     def areas(self, place: Position) -> list[Area]:
         """The areas that the formula of a cell refers to; none for a cell without a formula."""

@@ -680,7 +680,7 @@ def _meets(value: Scalar, criterion: Scalar) -> bool:
 
 def _conditional(name: str, arguments: Arguments) -> Run:
     """COUNTIF(S), SUMIF(S), AVERAGEIF, MAXIFS and MINIFS."""
-    result, pairs = _conditions(name, arguments)
+    result, pairs = _ranges_with_criteria(name, arguments)
     if not pairs:
         raise NotComputedError(f"it gives {name} {len(arguments)} arguments")
 
@@ -696,7 +696,7 @@ def _conditional(name: str, arguments: Arguments) -> Run:
     return run
 
 
-def _conditions(
+def _ranges_with_criteria(
     name: str, arguments: Arguments
 ) -> tuple[Arguments | None, list[tuple[Run | None, Run | None]]]:
     """The range that is counted, if it is given by itself, and all ranges with their criteria."""

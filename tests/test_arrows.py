@@ -16,7 +16,7 @@ EVERY = sorted(path for room in ROOMS for path in (ROOT / room).rglob("*.py"))
 FLOORS: tuple[set[str], ...] = (
     {"reference"},
     {"models"},
-    {"spreadsheets", "page", "reading", "text"},
+    {"spreadsheets", "page", "user_input", "text"},
     {"cases", "columns"},
     {"error", "fit", "solve"},
     {"audit"},
@@ -29,7 +29,7 @@ FLOORS: tuple[set[str], ...] = (
 
 ONLY = {
     "spreadsheets": {"reference"},
-    "audit": {"reference", "models", "reading", "text"},
+    "audit": {"reference", "models", "user_input", "text"},
     "": {"audit", "cases", "models"},  # the homes of the public names of `replication`
 }
 """Packages that may import fewer than all lower floors, and which."""

@@ -53,8 +53,9 @@ def test_figures_have_axes_with_units(cells: list[Cell]) -> None:
             assert re.fullmatch(r"[A-Z].* \[\S+\]", label)
 
 
-def test_it_tells_of_all_five_parts_and_asks(cells: list[Cell]) -> None:
+def test_it_tells_of_all_five_parts_and_answers_what_it_asks(cells: list[Cell]) -> None:
     text = TOUR.read_text("utf-8")
     heads = re.findall(r"## (\d)\. ([A-Za-z ]+)", text)
     assert [head for head, _ in heads] == ["1", "2", "3", "4", "5"]
-    assert text.count("**Question.**") == 5
+    _, *questions = text.split("**Question.**")
+    assert [question.count("<summary>Answer</summary>") for question in questions] == [1] * 6

@@ -22,10 +22,10 @@ from replication.models import motion
 from replication.models.depth import final_depth
 from replication.models.impact import Impact, InputError
 from replication.models.sheet import Row, Sheet, run
-from replication.reading import place, read_number
 from replication.report.document import claim_document, equation_document
 from replication.solve import solve_printed
 from replication.text import between, json_text, number, quantity, rounded
+from replication.user_input import place, read_number
 
 Table = dict[str, Any]
 

@@ -19,7 +19,7 @@ from replication.audit import record as r
 from replication.audit.inference import DENSITY
 from replication.audit.results import DERIVED, Results, case, exact_ratio
 from replication.models import depth, motion, sheet
-from replication.models.crater import crater_depth, depth_from_volume_ratio
+from replication.models.crater import crater_depth, normalized_depth_from_volume_ratio
 from replication.models.impact import InputError
 from replication.text import with_unit
 
@@ -82,7 +82,7 @@ def approaches(results: Results) -> list[r.Approach]:
     forms = ("Eq. 16 as printed", ""), ("Eqs. 14 and 15", DERIVED)
     return [
         approach("observed", f"CV/PV = {drawn}, the line in Figure 1", "",
-                 depth_from_volume_ratio, line),
+                 normalized_depth_from_volume_ratio, line),
         approach("observed", f"CV/PV = {taken}, as taken for Eq. 4", observed, computed, observed),
         *(of_case("sheet", beta, in_sheet, f"ratio-beta-{beta}") for beta in BETAS),
         *(of_case("exact", beta, exact) for beta in BETAS),

@@ -12,7 +12,7 @@ from itertools import pairwise, product
 from string import digits
 
 from reference.derivations import derived_from, premises_of
-from reference.enclosure import Solutions, find_solutions
+from reference.enclosure import SolutionSet, find_solutions
 from reference.ledger import INFERRED, Claim, Ledger
 from reference.printed import parse
 from reference.units import to_si
@@ -97,7 +97,7 @@ class Explainer:
             )
         return records
 
-    def solutions(self, claim: Claim, reading: str, name: str) -> Solutions:
+    def solutions(self, claim: Claim, reading: str, name: str) -> SolutionSet:
         """Return the values (SI) of an entry, the others as printed, for which a reading agrees."""
         others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
         function = self.ledger.function(claim, reading=reading)

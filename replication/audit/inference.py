@@ -8,7 +8,15 @@ from functools import cache, cached_property
 from msgspec.structs import replace
 
 from reference.arithmetic import Arithmetic, Function, Number
-from reference.enclosure import Box, Constraint, Ends, Solutions, bounds, find_solutions, satisfying
+from reference.enclosure import (
+    Box,
+    Constraint,
+    Ends,
+    SolutionSet,
+    bounds,
+    find_solutions,
+    satisfying,
+)
 from reference.ledger import INFERRED, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
@@ -55,7 +63,7 @@ class Inference:
         self.entry = ledger.inferred[name.removeprefix(INFERRED)]
         self.rounded, self.admitted = cache(self._rounded), cache(self._admitted)
         self.admits = cache(self._admits)
-        self.by_claim: dict[str, Solutions] = {}
+        self.by_claim: dict[str, SolutionSet] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
             printed = {key: ledger.value(key) for key in resting.entries if key != name}

@@ -23,8 +23,8 @@ from replication.audit.assessment import (
     Reading,
     Verdict,
 )
-from replication.reading import advice
 from replication.text import with_unit
+from replication.user_input import advice
 
 SCHEMA = "coldspray-audit-2"
 """The name and version of the keys of `audit.json`."""

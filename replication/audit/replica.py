@@ -10,7 +10,7 @@ from functools import partial
 
 from reference.scheme import Scheme
 from replication.models import crater, estimates, sheet
-from replication.models.crater import depth_from_volume_ratio
+from replication.models.crater import normalized_depth_from_volume_ratio
 from replication.models.impact import Impact, particle_mass
 
 
@@ -49,18 +49,22 @@ REPLICA: Mapping[str, Callable[..., float]] = {
     "diameter_of": lambda radius: 2 * radius,
     "sphere_length_ratio": estimates.sphere_length_ratio,
     "sphere_volume": lambda diameter: crater.volume(diameter / 2),
-    "crater_normalized_depth": lambda volume_ratio: depth_from_volume_ratio(volume_ratio),
-    "crater_depth": lambda volume_ratio, diameter: (
-        depth_from_volume_ratio(volume_ratio) * diameter / 2
+    "crater_normalized_depth": lambda volume_ratio: normalized_depth_from_volume_ratio(
+        volume_ratio
     ),
-    "crater_depth_over_diameter": lambda volume_ratio: depth_from_volume_ratio(volume_ratio) / 2,
+    "crater_depth_by_diameter": lambda volume_ratio, diameter: (
+        normalized_depth_from_volume_ratio(volume_ratio) * diameter / 2
+    ),
+    "crater_depth_over_diameter": lambda volume_ratio: (
+        normalized_depth_from_volume_ratio(volume_ratio) / 2
+    ),
     "contact_diameter": crater.contact_diameter,
     "target_resistance": estimates.target_resistance,
     # Force = stress * length^power, so the power is log2 of what doubling the length does.
     "force_power": lambda: math.log2(_resisting_force(2.0) / _resisting_force(1.0)),
     "goodier_beta": lambda q, power: estimates.goodier_beta(q) * 2 ** (power - 2),
     "walker_anderson_alpha": estimates.walker_anderson_alpha,
-    "walker_anderson_beta": lambda **steel: estimates.walker_anderson_beta(
+    "walker_anderson_beta_of_target": lambda **steel: estimates.walker_anderson_beta(
         estimates.walker_anderson_alpha(**steel)
     ),
     "least_beta": lambda **betas: min(betas.values()),

@@ -34,7 +34,7 @@ from replication.error.ladder import exact_motion
 from replication.models import arrays, motion
 from replication.models.impact import Impact
 from replication.models.sheet import run
-from replication.reading import advice, quoted
+from replication.user_input import advice, quoted
 
 Measure = Literal["depth", "history"]
 MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}

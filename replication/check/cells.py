@@ -15,7 +15,7 @@ from replication.check.roles import Inputs
 from replication.check.six import EXACT, start_of_row
 from replication.check.table import LEAST, Line, SchemeTable, behind, runs
 from replication.check.words import COLUMNS, title
-from replication.reading import quoted
+from replication.user_input import quoted
 from spreadsheets.evaluate import Evaluator, Shape, formula_text
 from spreadsheets.foreign import Position
 from spreadsheets.scalars import Error, LiteralKey, Scalar

@@ -16,7 +16,7 @@ from pathlib import Path
 
 from replication.check.words import is_unit
 from replication.columns import csv_rows
-from replication.reading import place as named
+from replication.user_input import place as named
 from spreadsheets.foreign import (
     MAX_CELLS,
     MAX_FILE,

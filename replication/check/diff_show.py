@@ -8,7 +8,7 @@ from replication import page
 from replication.check.diff import FOLLOWS, LAST, BookComparison, not_stored
 from replication.check.difference import Difference, counted
 from replication.check.shown import NO_LIMIT, anchor, drawn, fitted, safe, whereabouts, wrapped
-from replication.reading import printable
+from replication.user_input import printable
 from spreadsheets.foreign import Book, Position
 
 _MOST, _MOST_LISTED = 12, 1_000

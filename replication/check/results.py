@@ -315,7 +315,7 @@ def printed_cells(exams: Sequence[Examination], evaluator: Evaluator) -> Iterato
         whole = math.isclose(exam.intended.c, report_inputs()["step"][0], rel_tol=1e-6)
         if exam.ends and whole and (depth := exam.final_depth) is not None:
             place = exam.table.place("depth", exam.last)
-            yield _judged(f"depth-{case}", place, Fraction(depth), False)
+            yield _judged_number(f"depth-{case}", place, Fraction(depth), False)
         for place, label, unit in _labelled(evaluator):
             beta, number = number_in(label)
             if len(exams) > 1 and beta != "beta":
@@ -333,12 +333,12 @@ def _typed_result(
         return
     value = Fraction(number)
     if kind == "ratio":
-        yield _judged(f"ratio-{case}", place, value, True)
+        yield _judged_number(f"ratio-{case}", place, value, True)
     elif kind == "depth" and unit and same_dimension(unit, "m"):
-        yield _judged(f"depth-{case}", place, value * to_si(unit), True)
+        yield _judged_number(f"depth-{case}", place, value * to_si(unit), True)
     elif kind == "depth" and exam.final_depth and value > 0:
         power = 3 * round(math.log10(exam.final_depth / number) / 3)
-        yield _judged(f"depth-{case}", place, value * Fraction(10) ** power, True)
+        yield _judged_number(f"depth-{case}", place, value * Fraction(10) ** power, True)
 
 
 def _labelled(evaluator: Evaluator) -> Iterator[tuple[Position, str, str | None]]:
@@ -367,7 +367,7 @@ def _double(value: Fraction) -> float:
     return float(max(-Fraction(most), min(Fraction(most), value)))
 
 
-def _judged(name: str, place: Position, value: Fraction, typed: bool) -> PrintedCell:
+def _judged_number(name: str, place: Position, value: Fraction, typed: bool) -> PrintedCell:
     """Compare a value in SI units with the claim of this name."""
     claim = load().claims[name]
     shown = value / claim.si

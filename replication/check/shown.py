@@ -8,8 +8,8 @@ from xml.etree import ElementTree as ET
 from openpyxl.utils.cell import get_column_letter
 
 from replication.check.difference import Difference
-from replication.reading import printable
 from replication.text import prose
+from replication.user_input import printable
 from spreadsheets.engines import address
 from spreadsheets.foreign import Position
 

@@ -30,7 +30,7 @@ def stale(evaluator: Evaluator) -> Iterator[Position]:
         if type(stored) is float and type(value) is float:
             if abs(stored - value) <= _DIGITS * abs(value) + evaluator.book.resolution:
                 continue
-            if _is_within(evaluator, place, stored, value):
+            if _within_last_digits(evaluator, place, stored, value):
                 continue
         elif evaluator.book[place].error and isinstance(value, Error):
             continue
@@ -51,7 +51,7 @@ def _numbers_read(evaluator: Evaluator, place: Position) -> list[Position]:
     return cells
 
 
-def _is_within(
+def _within_last_digits(
     evaluator: Evaluator, place: Position, stored: float, value: float,
     given: dict[Position, Scalar] | None = None,
 ) -> bool:  # fmt: skip
@@ -107,5 +107,5 @@ def _follows(evaluator: Evaluator, place: Position, stored: Scalar) -> bool:
     if type(value) is float and type(stored) is float:
         if abs(stored - value) <= _DIGITS * abs(value) + evaluator.book.resolution:
             return True
-        return _is_within(evaluator, place, stored, value, given)
+        return _within_last_digits(evaluator, place, stored, value, given)
     return value == stored

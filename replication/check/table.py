@@ -475,7 +475,7 @@ def _on_sheet(evaluator: Evaluator, known: Sequence[Line], close: float) -> list
         if not (is_free(depth) and is_free(speed)):
             continue
         table = _made(evaluator, depth, speed, lag, c, [o for o in known if is_free(o)])
-        if table is None or any(_beside(table, o) for o in found):
+        if table is None or any(_is_beside(table, o) for o in found):
             continue
         if depth.computed or len(table.lines) > 2 or not found:
             found.append(table)
@@ -540,7 +540,7 @@ def _may_be_pair(depth: Line, speed: Line) -> bool:
     return _reads(depth, speed) or not _reads(depth, depth)
 
 
-def _beside(table: SchemeTable, other: SchemeTable) -> bool:
+def _is_beside(table: SchemeTable, other: SchemeTable) -> bool:
     """Whether a table consists of lines that only show those of another one beside it."""
     depth = table.lines["depth"]
     if not depth.computed or _reads(depth, depth):

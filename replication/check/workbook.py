@@ -25,8 +25,8 @@ from replication.check.words import (
     is_unit,
     share,
 )
-from replication.reading import advice, quoted
-from replication.reading import place as named
+from replication.user_input import advice, quoted
+from replication.user_input import place as named
 from spreadsheets.evaluate import Evaluator, Shape, parse_formula, shape_key
 from spreadsheets.foreign import Book, Position, without_zeros
 from spreadsheets.scalars import Area, Error

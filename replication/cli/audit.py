@@ -6,7 +6,7 @@ from functools import partial
 
 from replication.cli.options import add_json, add_quiet, path
 from replication.cli.output import coloured, may_emphasize, progress, put_json, width
-from replication.reading import one_line
+from replication.user_input import one_line
 
 HELP = "audit every number the report prints"
 EXAMPLE = "coldspray audit --out audited --exit-code"

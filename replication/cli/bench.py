@@ -5,7 +5,7 @@ import sys
 
 from replication.cli.options import add_csv_and_json, add_quiet, path, whole
 from replication.cli.output import width
-from replication.reading import place, read_number
+from replication.user_input import place, read_number
 
 HELP = "measure speed against error: every method and its peers"
 EXAMPLE = "coldspray bench --case beta-5 --quick"

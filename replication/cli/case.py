@@ -2,16 +2,16 @@
 
 import argparse
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from fractions import Fraction
-from typing import NamedTuple
+from typing import NamedTuple, NoReturn
 
 from reference.units import to_si
 from replication.cases import BETA_5, CASES, INPUTS, inputs_of, option, read_case
 from replication.cli.options import path
 from replication.models.impact import Impact
-from replication.reading import read_number
 from replication.text import number, with_unit
+from replication.user_input import read_number, typed_unit
 
 OF_THE_SHEET = ("step", "stop_velocity")
 """The inputs that act only where time is stepped."""
@@ -46,6 +46,18 @@ def add_inputs(
         acts = (with_sheet or name not in OF_THE_SHEET) and name not in without
         text = f"{meaning} ({has})" if acts else argparse.SUPPRESS
         group.add_argument(option(name), metavar="X", help=text)
+    group.add_argument("--diameter", type=_half_of, help=argparse.SUPPRESS)
+
+
+def _half_of(text: str) -> NoReturn:
+    """Refuse a diameter, and say which radius it is."""
+    radius = "11 um"
+    with suppress(ValueError):
+        read_number(text, "m")
+        unit = typed_unit(text)
+        value = float(text.strip().removesuffix(unit))
+        radius = f"{number(value / 2, 12)} {unit}".strip()
+    raise argparse.ArgumentTypeError(f'give the radius, which is half: --radius "{radius}"')
 
 
 def case_of(options: argparse.Namespace) -> tuple[Impact, list[str]]:
@@ -103,7 +115,7 @@ _STRENGTH = Expected(1e4, 1e12, "MPa")
 """From soft gels, some 10 kPa, to ten times the hardness of diamond."""
 
 EXPECTED = {
-    "velocity": Expected(1e-3, 1e5, "m/s"),  # meteors reach 7e4 m/s
+    "velocity": Expected(1.0, 1e5, "m/s"),  # the sheet stops at 1 m/s; meteors reach 7e4 m/s
     "radius": Expected(1e-9, 1.0, "um"),  # from a few atoms to larger than anything that is shot
     "particle_density": _DENSITY,
     "target_density": _DENSITY,
@@ -137,7 +149,7 @@ def doubt(name: str, value: float, named: str, *, typed: bool = True) -> list[st
     value, and may have left out its unit.
 
     >>> doubt("velocity", 5e5, "line 3: velocity")
-    ['line 3: velocity is 500000 m/s: from 0.001 to 100000 m/s is expected']
+    ['line 3: velocity is 500000 m/s: from 1 to 100000 m/s is expected']
     """
     (least, greatest, usual), unit = EXPECTED[name], INPUTS[name]
     if least <= value <= greatest:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import coloured, may_emphasize, put, width
-from replication.reading import advice, quoted
 from replication.text import columns, quantity, with_unit
+from replication.user_input import advice, quoted
 
 if TYPE_CHECKING:
     from reference.ledger import Claim, Ledger

@@ -9,9 +9,9 @@ from reference.scheme import Scheme
 from replication.cli.case import add_inputs, case_of, doubted, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme, times, whole
 from replication.cli.output import filled, put, width
-from replication.cli.picture import add_plot, checked, write_picture
+from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.models.impact import Impact
-from replication.text import columns, number
+from replication.text import columns, in_percent, number
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
     rows = [level | level["budget"] for level in record["levels"]]
     for row in rows:
         del row["budget"], row["warnings"], row["warned_of"]
-    notes = _notes(record["levels"])
+    notes = _notes(record["levels"]) + notes_on(points)
     return put(
         options, record, lambda: _convergence_text(case, record, GOVERNED_BY), rows, warnings, notes
     )
@@ -197,7 +197,7 @@ def _limit(record: Mapping[str, Any]) -> str:
     observed, order = record["observed_order"], record["nominal_order"]
     text = (
         f"{_um(record['limit'], 8)} um, observed order {observed:.2f}, "
-        f"grid convergence index {100 * record['gci']:.2g} %"
+        f"grid convergence index {in_percent(record['gci'], 2)}"
     )
     accidental = abs(observed - order) > 0.1 * order
     return f"{text} (no bound: the order is not the scheme's)" if accidental else text

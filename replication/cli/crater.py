@@ -10,8 +10,8 @@ from replication.cli.options import add_json, add_quiet
 from replication.cli.output import put
 from replication.models.crater import crater_depth, crater_volume_ratio, volume
 from replication.models.impact import GREATEST, LEAST
-from replication.reading import place, quoted, read_number
 from replication.text import number, with_unit
+from replication.user_input import place, quoted, read_number
 
 HELP = "print a crater's volume by its depth, or its depth by its volume"
 EXAMPLE = "coldspray crater --volume-ratio 0.06"
@@ -45,6 +45,8 @@ def run(options: argparse.Namespace) -> int:
         depth = _positive("--depth", options.depth, "m")
         y, ratio = depth / radius, crater_volume_ratio(depth, radius)
     particle, warnings = volume(radius), doubt("radius", radius, "--radius")
+    if options.depth is not None:
+        warnings += doubt("radius", depth, "--depth")  # no crater is deeper than what is shot
     record = {
         "radius": radius,
         "depth": depth,
@@ -60,8 +62,8 @@ def run(options: argparse.Namespace) -> int:
         f"normalized depth  {number(y, 8)}\n"
         f"volume            {number(ratio * particle * 1e18, 8)} um^3\n"
         f"over particle's   {number(ratio, 8)}\n"
-        f"shape             {'a cap, then a cylinder' if y > 1 else 'a cap'} of a sphere of "
-        f"{number(radius * 1e6)} um"
+        f"shape             {'a cap, then a cylinder' if y > 1 else 'a cap'} "
+        f"(sphere of radius {number(radius * 1e6)} um)"
     )
     return put(options, record, lambda: text, warnings=warnings)
 

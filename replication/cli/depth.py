@@ -21,8 +21,8 @@ from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import filled, put, width
 from replication.models.estimates import penetration_threshold
 from replication.models.impact import Impact, check_each, check_inputs
-from replication.reading import place, read_number
 from replication.text import aligned, columns, number, with_unit
+from replication.user_input import place, read_number
 
 HELP = "print the exact final depth of a case, or that by another model"
 EXAMPLE = "coldspray depth --velocity '450 m/s' --radius '5 um' --models"
@@ -90,6 +90,8 @@ def run(options: argparse.Namespace) -> int:
     if typed_strength is not None:
         strength = _read_input("--particle-strength", "particle_strength", typed_strength, "Pa")
         threshold = penetration_threshold(strength, case.target_resistance, case.particle_density)
+        if strength > 0:  # a particle without any is a jet
+            warnings += doubt("flow_stress", strength, "--particle-strength")
     if "resistance" in own:
         warnings += doubt("resistance", own["resistance"], OPTIONS["resistance"])
     record: dict[str, Any] = {"inputs": inputs_of(case), "models": results}

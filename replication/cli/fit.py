@@ -17,11 +17,20 @@ from replication.cli.case import (
 )
 from replication.cli.options import add_csv_and_json, add_quiet, one_of, path
 from replication.cli.output import filled, put
-from replication.cli.picture import add_plot, checked, write_picture
-from replication.fit import FITTABLE, Fit, Measurement, check_factor, fit, read_measurements
+from replication.cli.picture import add_plot, checked, notes_on, write_picture
+from replication.columns import note_of_unused, read_columns
+from replication.fit import (
+    FITTABLE,
+    Fit,
+    Measurement,
+    check_factor,
+    fit,
+    measurement_columns,
+    measurements_in,
+)
 from replication.models.depth import final_depth
-from replication.reading import place
-from replication.text import aligned, number, numbers
+from replication.text import aligned, in_percent, number, numbers
+from replication.user_input import place
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -39,7 +48,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "file", metavar="DATA.csv", type=path,
         help="columns, each with a head such as 'velocity [m/s]' and 'depth [um]' or "
-        "'normalized depth'; maybe 'uncertainty [um]', of the depths, and the other inputs by name",
+        "'normalized depth'; maybe 'uncertainty [um]', of the depths, and the other inputs by "
+        "name; of a 'diameter [um]' the radius is half",
     )  # fmt: skip
     parser.add_argument(
         "--quantity", metavar="NAME", type=one_of("quantity", NAMES), default="resistance",
@@ -60,7 +70,10 @@ def run(options: argparse.Namespace) -> int:
     case, warnings = case_of(options)
     check_factor(case, quantity)
     points = checked(options, _further_points, options.file, options.case_file)
-    measurements = read_measurements(options.file, case)
+    columns = read_columns(options.file)
+    measurements = measurements_in(columns, case)
+    used = measurement_columns(columns).values()
+    notes = note_of_unused(columns, used) + notes_on(points)
     with place(str(options.file)):
         fitted = fit(case, measurements, quantity)
     warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))
@@ -80,8 +93,9 @@ def run(options: argparse.Namespace) -> int:
         "points": fitted.points,
         "measurements": rows,
         "warnings": warnings,
+        "notes": notes,
     }
-    return put(options, record, lambda: _fit_text(fitted, inputs, rows), rows, warnings)
+    return put(options, record, lambda: _fit_text(fitted, inputs, rows), rows, warnings, notes)
 
 
 def _further_points(file: Path) -> "Points":
@@ -157,10 +171,10 @@ def _fit_text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[s
     if fitted.standard_error is None:
         results.append(("standard error", "unknown: one measurement, without an uncertainty"))
     else:
-        percent = number(100 * fitted.standard_error / fitted.value, 3)
+        share = in_percent(fitted.standard_error / fitted.value)
         error = input_in_words(fitted.quantity, fitted.standard_error, 3)
         by = "uncertainties" if weighted else "scatter"
-        results.append(("standard error", f"{error}, {percent} %, by the {by}"))
+        results.append(("standard error", f"{error}, {share}, by the {by}"))
     if fitted.chi_square is not None:
         freedom = fitted.points - 1
         results.append(("chi square", f"{number(fitted.chi_square, 4)}, {freedom} expected"))

@@ -9,7 +9,7 @@ from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, times, whole
 from replication.cli.output import filled, put
-from replication.cli.picture import add_plot, checked, write_picture
+from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.models.impact import Impact
 from replication.text import number, numbers
 
@@ -67,9 +67,11 @@ def run(options: argparse.Namespace) -> int:
             [filled(in_words(case)), "", *lines, "", f"stop time  {number(stop * 1e9, 8)} ns"]
         )
 
-    record = {"inputs": inputs_of(case), **lists, "stop_time": stop, "warnings": warnings}
+    notes = notes_on(points)
+    record = {"inputs": inputs_of(case), **lists, "stop_time": stop}
+    record |= {"warnings": warnings, "notes": notes}
     rows = [dict(zip(lists, row, strict=True)) for row in table] if options.csv else []
-    return put(options, record, text, rows, warnings)
+    return put(options, record, text, rows, warnings, notes)
 
 
 def _own_points(file: Path) -> "Points":

@@ -2,12 +2,12 @@
 
 import argparse
 import re
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TypeVar
 
 from reference.scheme import Scheme
-from replication.reading import advice, place, quoted, read_number
+from replication.user_input import advice, place, quoted, read_number, typed_unit
 
 Name = TypeVar("Name", bound=str)
 
@@ -94,9 +94,32 @@ def times(option: str, text: str, most: int) -> list[float]:
     texts, values = [time.strip() for time in text.split(",")], list[float]()
     if len(texts) > most:
         raise ValueError(f"{option}: give at most {most:,} values, not {len(texts):,}")
+    _check_units(option, texts)
     for position, time in enumerate(texts, 1):
         with place(f"{option}, value {position}"):
             values.append(read_number(time, "s"))
             if not 0 <= values[-1] <= 1e250:
                 raise ValueError(f"{quoted(time)} is not between 0 and 1e250 s")
     return values
+
+
+def _check_units(option: str, texts: Sequence[str]) -> None:
+    """Raise ValueError if some of the numbers have a unit and others, which are not 0, have none.
+
+    >>> _check_units("--times", ["0", "5", "10 ns"])
+    Traceback (most recent call last):
+    ValueError: --times: '5' has no unit, and others have one: write "0 ns,5 ns,10 ns"
+    """
+    units = [typed_unit(text) for text in texts]
+    plain = [
+        text
+        for text, unit in zip(texts, units, strict=True)
+        if not unit and re.search("[1-9]", text)
+    ]
+    if plain and any(units):
+        last = [unit for unit in units if unit][-1]
+        meant = [text if typed_unit(text) else f"{text} {last}" for text in texts[:8]]
+        listed = ",".join(meant + ["..."] * (len(texts) > 8))
+        raise ValueError(
+            f'{option}: {quoted(plain[0])} has no unit, and others have one: write "{listed}"'
+        )

@@ -10,8 +10,8 @@ import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TextIO
 
-from replication.reading import one_line
 from replication.text import json_text, prose, rows_csv
+from replication.user_input import one_line
 
 
 def put(

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn, Protocol
 
-from replication.reading import advice, one_line, quoted
+from replication.user_input import advice, one_line, quoted
 
 
 class Command(Protocol):

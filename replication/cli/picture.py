@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from replication.cli.options import path
-from replication.reading import place
+from replication.user_input import place
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -44,6 +44,11 @@ def checked(
     with place("--plot"):
         check_plot(options.plot, data, *inputs)
     return None if data is None else read(data)
+
+
+def notes_on(points: "Points | None") -> list[str]:
+    """Return the notes on the file of one's own points, if there is one."""
+    return [] if points is None else [*points.notes]
 
 
 def write_picture(options: argparse.Namespace, figure: Callable[[], "Figure"]) -> None:

@@ -8,7 +8,7 @@ from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, doubted, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme
 from replication.cli.output import filled, put
-from replication.cli.picture import add_plot, checked, write_picture
+from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.models.sheet import Sheet
 from replication.text import number, numbers
 
@@ -41,7 +41,7 @@ def run(options: argparse.Namespace) -> int:
     write_picture(options, lambda: _sheet_figure(result, points))
     rows = [row._asdict() for row in result.rows] if options.json or options.csv else []
     doubts = error.warnings(result)
-    notes = [words for kind, words in doubts.items() if kind in error.NOTES]
+    notes = [words for kind, words in doubts.items() if kind in error.NOTES] + notes_on(points)
     warnings += [words for kind, words in doubts.items() if kind not in error.NOTES]
     record = {
         "inputs": inputs_of(case),

@@ -19,9 +19,9 @@ from replication.cli.case import (
 from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import filled, put, width
 from replication.models.impact import Impact, InputError
-from replication.reading import place, quoted, read_number
 from replication.solve import DEPTHS, QUANTITIES, Solution, solve, solve_printed
 from replication.text import between, columns, number, with_unit
+from replication.user_input import place, quoted, read_number
 
 HELP = "print the resistance, velocity, ... that gives a final depth"
 EXAMPLE = "coldspray solve resistance --depth '3.3 um' --rounded"
@@ -32,7 +32,7 @@ NAMES = {name.replace("_", "-"): name for name in QUANTITIES}
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
-        "quantity", metavar="QUANTITY", type=one_of("quantity", NAMES),
+        "quantity", metavar="QUANTITY", type=_quantity,
         help=f"what is sought: {', '.join(NAMES)}",
     )  # fmt: skip
     wanted = parser.add_mutually_exclusive_group(required=True)
@@ -47,6 +47,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     add_json(parser)
     add_quiet(parser)
     add_inputs(parser, with_sheet=False)
+
+
+def _quantity(text: str) -> str:
+    """Read what is sought; somebody who seeks the depth is told who gives it."""
+    if text in ("depth", "normalized-depth"):
+        raise argparse.ArgumentTypeError(
+            "it is solved for what gives a depth; the depth of a case is printed by `coldspray "
+            "depth`"
+        )
+    return one_of("quantity", NAMES)(text)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -67,8 +77,10 @@ def run(options: argparse.Namespace) -> int:
         if quantity == "radius":
             raise
         radii = f"{depth / case.radius:.3g} times the radius"
-        meant = _meant(text, depth / case.radius)
-        raise ValueError(f"{option(name)}: the depth is {radii}: {error}{meant}") from error
+        problem = f"the depth is {radii}: {error}"
+        if meant := _meant(text, depth / case.radius):
+            problem = f'did you mean "{meant}"? ({problem})'
+        raise ValueError(f"{option(name)}: {problem}") from error
     if answer.value is not None:
         named = f"the {_without_underscores(quantity)} for this depth"
         warnings += doubt(quantity, answer.value, named, typed=False)
@@ -100,10 +112,10 @@ def _depth(name: str, text: str, quantity: str, case: Impact) -> float:
 
 
 def _meant(text: str, normalized_depth: float) -> str:
-    """Ask whether micrometres are meant by a number without a unit that no depth [m] can be."""
+    """Return the micrometres meant by a number without a unit that no depth [m] can be, or ""."""
     is_plain = not text.strip()[-1:].isalpha()
     in_um = is_plain and normalized_depth > 1e3 and 1e-3 < normalized_depth * 1e-6 < 1e3
-    return f'; did you mean "{text.strip()} um"?' if in_um else ""
+    return f"{text.strip()} um" if in_um else ""
 
 
 def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from replication.cli.options import add_json, add_quiet, path
 from replication.cli.output import progress, put
-from replication.cli.picture import add_plot, checked, drafted
-from replication.reading import one_line, place
+from replication.cli.picture import add_plot, checked, drafted, notes_on
+from replication.user_input import one_line, place
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -49,9 +49,11 @@ def run(options: argparse.Namespace) -> int:
         drafted(options, lambda: _sweep_figure(options, plan, points)),
     ):
         write_sweep(plan, output, done=bar.update)
+    notes = notes_on(points)
     record = {"file": str(output), "cases": plan.count, "columns": plan.columns}
+    record |= sweep_provenance(plan) | {"notes": notes}
     text = f"Written: {one_line(str(output))} ({plan.count} cases)"
-    return put(options, record | sweep_provenance(plan), lambda: text, quietly=True)
+    return put(options, record, lambda: text, notes=notes, quietly=True)
 
 
 def _checked(options: argparse.Namespace, plan: "Plan", output: Path) -> "Points | None":

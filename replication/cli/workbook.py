@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 from replication.cli.case import add_inputs, case_of, is_given
 from replication.cli.options import add_json, add_quiet, add_scheme, path, whole
 from replication.cli.output import put
-from replication.reading import one_line
 from replication.text import aligned
+from replication.user_input import one_line
 
 if TYPE_CHECKING:
     from spreadsheets.verify import EngineCheck

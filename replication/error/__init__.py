@@ -2,6 +2,7 @@
 
 from replication.models.depth import depth_at_velocity, final_depth
 from replication.models.sheet import Sheet
+from replication.text import in_percent
 
 COARSE = 0.1
 """The largest acceptable dt V / R, the share of the radius R covered by a step at the impact
@@ -50,9 +51,9 @@ def warnings(sheet: Sheet) -> dict[str, str]:
     if last.velocity_final is None:
         return {"no steps": f"the velocity {impact.velocity!r} m/s is below {stop}: no steps"}
     if last.velocity_final < -impact.stop_velocity:
-        share = 100 * -last.velocity_final / impact.velocity
+        share = in_percent(-last.velocity_final / impact.velocity, 2)
         text = f"the last step reverses the velocity to {last.velocity_final:.4g} m/s"
-        result["reversed"] = f"{text}, {share:.2g} % of the impact velocity"
+        result["reversed"] = f"{text}, {share} of the impact velocity"
     travel = impact.velocity * impact.step / impact.radius
     if too_long(travel):
         text = f"a step at the impact velocity covers {travel:.3g} of the radius"
@@ -60,18 +61,18 @@ def warnings(sheet: Sheet) -> dict[str, str]:
     rest = final_depth(**impact.motion)
     if last.depth > rest * (1 + DIGITS):
         text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
-        result["deep"] = f"{text}, by {100 * (last.depth / rest - 1):.3g} %"
+        result["deep"] = f"{text}, by {in_percent(last.depth / rest - 1)}"
     at_stop = depth_at_velocity(impact.stop_velocity, **impact.motion)
     if abs(last.depth - at_stop) > OFF_STOP * at_stop and "deep" not in result:
         kind, relation = "overrun", "exceeds"
         if last.depth < at_stop:
             kind, relation = "shallow", "falls short of"
         text = f"the depth {relation} the exact one at the stop velocity, {at_stop:.6g} m"
-        by = f", by {100 * abs(1 - last.depth / at_stop):.3g} %" if at_stop else ""
+        by = f", by {in_percent(abs(1 - last.depth / at_stop))}" if at_stop else ""
         cure = "take a shorter step" if at_stop else "the run begins at the stop velocity"
         result[kind] = f"{text}{by}: {cure}"
     if 1 - at_stop / rest > DIGITS and last.depth < rest:
         # Of the depth that the sheet has reached, which may be far from that at the stop velocity.
-        left = f"{100 * (1 - last.depth / rest):.3g} % of the exact depth is still to come"
+        left = f"{in_percent(1 - last.depth / rest)} of the exact depth is still to come"
         result["short"] = f"{stop} ends the run before rest: {left}"
     return result

@@ -20,7 +20,8 @@ from replication.text import aligned, columns, prose
 
 
 def _half_buried(factor: float) -> dict[str, float]:
-    # With rho_t = 2 rho_p, ln(1 + p) = 1 and p = rho_t V^2 / 2 R_t, the work c is 2/3, so y = 1.
+    # With rho_t = 2 rho_p, ln(1 + p) = 1 and p = rho_t V^2 / 2 R_t, the area integral is 2/3, so
+    # y = 1.
     resistance = 8000.0 * 500.0 * 500.0 / 2 / math.expm1(1.0) * factor
     return {"particle_density": 4000.0, "target_density": 8000.0, "resistance": resistance}
 
@@ -174,12 +175,12 @@ def _ulps(depth: float, case: dict[str, float]) -> float:
     """
     velocity, radius, particle, target, resistance = map(arb, case.values())
     pressure = target * velocity * velocity / (2 * resistance)
-    work = 4 * particle / (3 * target) * pressure.log1p()
+    area_integral = 4 * particle / (3 * target) * pressure.log1p()
     y = depth / radius
-    if work <= arb(2) / 3:
-        distance = (y * y - y * y * y / 3 - work) / (2 * y - y * y)
+    if area_integral <= arb(2) / 3:
+        distance = (y * y - y * y * y / 3 - area_integral) / (2 * y - y * y)
     else:
-        distance = y - (work + arb(1) / 3)
+        distance = y - (area_integral + arb(1) / 3)
     return float(distance * radius / math.ulp(depth))
 
 

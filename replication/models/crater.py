@@ -30,7 +30,7 @@ def volume_ratio(normalized_depth: float) -> float:
     return normalized_depth * normalized_depth * (3 - normalized_depth) / 4
 
 
-def depth_from_volume_ratio(ratio: float) -> float:
+def normalized_depth_from_volume_ratio(ratio: float) -> float:
     """Normalized depth y = X/R [1] of a crater of volume ratio CV/PV [1] (inverse of Eqs. 2-3).
 
     The root of y^2 (3 - y) / 4 = ratio in [0, 1]: y = 2t (t + sqrt 3) / (1 + t^2) with t = tan(h)
@@ -38,7 +38,7 @@ def depth_from_volume_ratio(ratio: float) -> float:
     removes most of the rounding error. NaN for a ratio outside 0 to 1/2, the range of caps up to
     half the sphere.
 
-    >>> f"{depth_from_volume_ratio(0.06):.3f}"
+    >>> f"{normalized_depth_from_volume_ratio(0.06):.3f}"
     '0.298'
     """
     if not 0 < ratio <= 0.5:
@@ -65,7 +65,7 @@ def crater_depth(volume_ratio: float, radius: float = 1.0) -> float:
     '3.3'
     """
     deep = volume_ratio > 0.5
-    y = (1 + 4 * volume_ratio) / 3 if deep else depth_from_volume_ratio(volume_ratio)
+    y = (1 + 4 * volume_ratio) / 3 if deep else normalized_depth_from_volume_ratio(volume_ratio)
     return radius * y
 
 

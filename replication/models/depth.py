@@ -104,10 +104,11 @@ def velocity_at_depth(
     left = (radius * final - at_depth) / radius
     if left < 0:
         return math.nan
-    # The work from y - left to rest, beyond the radius and within it, without cancellation.
+    # The area integral from y - left to rest, beyond the radius and within it, in a form without
+    # cancellation.
     beyond = min(left, max(final - 1, 0.0))
     y = min(final, 1.0)
     left = min(left - beyond, y)  # from 1e16 radii on, rounding exceeds a radius
-    work = beyond + left * (y * (2 - y) - left * (1 - y) - left * left / 3)
+    area_integral = beyond + left * (y * (2 - y) - left * (1 - y) - left * left / 3)
     rest_over_impact = 2 * R_t / (rho_t * V * V)
-    return V * math.sqrt(rest_over_impact * math.expm1(0.75 * rho_t / rho_p * work))
+    return V * math.sqrt(rest_over_impact * math.expm1(0.75 * rho_t / rho_p * area_integral))

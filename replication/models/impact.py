@@ -161,7 +161,7 @@ def check_range(
     ratio = particle_density / target_density
     # The depth over the radius is at most some 800 times this ratio, and histories square it.
     carried("ratio of the densities squared", ratio * ratio)
-    carried("work", pressure / resistance * ratio)
+    carried("kinetic energy density over target resistance", pressure / resistance * ratio)
 
 
 def least_usual(name: str) -> float:

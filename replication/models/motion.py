@@ -1,9 +1,9 @@
 """Depth and velocity against time: Eq. 13 by Taylor series, and beyond y = 1 in closed form.
 
 With y = x/R and u = v/V, and time in units of R/V, Eq. 13 is polynomial up to y = 1: y' = u and
-u' = -(b u^2 + c) (2y - y^2), where b = 3 rho_t / (8 rho_p) and c = 3 R_t / (4 rho_p V^2). So each
-coefficient of the series follows from the previous ones by products of series. Beyond y = 1 the
-last factor is 1, and u is a tangent of time.
+u' = -(b u^2 + strength) (2y - y^2), where b = 3 rho_t / (8 rho_p), and strength is
+3 R_t / (4 rho_p V^2). So each coefficient of the series follows from the previous ones by products
+of series. Beyond y = 1 the last factor is 1, and u is a tangent of time.
 
 The order and the steps are those of Jorba and Zou (2005) for double precision: the radius of
 convergence r is estimated from the last two coefficients of the velocity, and a step is r / e^2
@@ -39,10 +39,10 @@ def history(
     """
     V, R = velocity, radius
     rising = _are_rising(time)
-    b, c, final, at_radius = _equation(V, particle_density, target_density, resistance)
+    b, strength, final, at_radius = _equation(V, particle_density, target_density, resistance)
     terms, scratch = zeros(4, ORDER + 1), zeros(3, LANES)
     k, end, reached = 0, 0.0, 0.0
-    for start, unit, length in _steps(terms, b, c, min(final, 1.0), at_radius):
+    for start, unit, length in _steps(terms, b, strength, min(final, 1.0), at_radius):
         reached = start + length * unit
         begin, end = start * R / V, reached * R / V
         k = k if rising else 0
@@ -58,13 +58,13 @@ def history(
                 for i in range(count):
                     depth[batch + i], speed[batch + i] = scratch[1][i], scratch[2][i] / unit
             k = max(k, first + 1)
-    rest = (reached + _time_beyond(final, 0.0, b, c, at_radius)) * R / V
+    rest = (reached + _time_beyond(final, 0.0, b, strength, at_radius)) * R / V
     for k in range(len(time)):
         y, u = depth[k], speed[k]
         if time[k] >= rest:
             y, u = final, 0.0
         elif time[k] >= end:
-            y, u = _beyond(time[k] * V / R - reached, b, c, at_radius)
+            y, u = _beyond(time[k] * V / R - reached, b, strength, at_radius)
         depth[k], speed[k] = R * min(y, final), V * max(u, 0.0)
 
 
@@ -115,34 +115,36 @@ def _time(
         return math.nan
     if depth == 0:
         return 0.0
-    b, c, final, at_radius = _equation(V, rho_p, rho_t, R_t)
+    b, strength, final, at_radius = _equation(V, rho_p, rho_t, R_t)
     reached, y, u = 0.0, depth / R, speed / V
     terms = zeros(4, ORDER + 1)
-    for start, unit, length in _steps(terms, b, c, min(final, 1.0), at_radius):
+    for start, unit, length in _steps(terms, b, strength, min(final, 1.0), at_radius):
         at, dy = _state(terms, length)
         if u > 0 and (at >= y or dy <= u * unit):
-            return (start + _locate(terms, y, u * unit, b, c * unit * unit, length) * unit) * R / V
+            located = _locate(terms, y, u * unit, b, strength * unit * unit, length)
+            return (start + located * unit) * R / V
         reached = start + length * unit
-    return (reached + _time_beyond(y, u, b, c, at_radius)) * R / V
+    return (reached + _time_beyond(y, u, b, strength, at_radius)) * R / V
 
 
 def _equation(
     V: float, rho_p: float, rho_t: float, R_t: float
 ) -> tuple[float, float, float, float]:
-    """Return b and c, y at rest, and u at y = 1 (0 if the motion does not get beyond it)."""
+    """Return b and strength, y at rest, and u at y = 1 (0 if the motion does not get beyond it)."""
     b = 0.375 * rho_t / rho_p
-    c = b / (rho_t * V * V / (2 * R_t))
+    strength = b / (rho_t * V * V / (2 * R_t))
     final = normalized_depth(V, rho_p, rho_t, R_t)
-    at_radius = math.sqrt(c / b * math.expm1(2 * b * (final - 1))) if final > 1 else 0.0
-    return b, c, final, at_radius
+    at_radius = math.sqrt(strength / b * math.expm1(2 * b * (final - 1))) if final > 1 else 0.0
+    return b, strength, final, at_radius
 
 
-# Beyond y = 1, where u = k tan(constant - w t) with k^2 = c/b and w = k b (b c might underflow)
+# Beyond y = 1, where u = k tan(constant - w t) with k^2 = strength / b and w = k b (the product b
+# strength might underflow)
 
 
-def _beyond(time: float, b: float, c: float, at_radius: float) -> tuple[float, float]:
+def _beyond(time: float, b: float, strength: float, at_radius: float) -> tuple[float, float]:
     """Return y and u at a time after the passage through y = 1, in a form without cancellation."""
-    k = math.sqrt(c / b)
+    k = math.sqrt(strength / b)
     half = k * b * time / 2
     sine, cosine = math.sin(half), math.cos(half)
     growth = 2 * sine * (at_radius / k * cosine - sine)
@@ -150,47 +152,47 @@ def _beyond(time: float, b: float, c: float, at_radius: float) -> tuple[float, f
     return 1 + math.log1p(growth) / b, u
 
 
-def _time_beyond(y: float, u: float, b: float, c: float, at_radius: float) -> float:
+def _time_beyond(y: float, u: float, b: float, strength: float, at_radius: float) -> float:
     """Return the time from y = 1 to the depth y and velocity u; 0 if the motion ends before."""
-    k, lost = math.sqrt(c / b), at_radius - u
+    k, lost = math.sqrt(strength / b), at_radius - u
     if at_radius > 0 and lost < u:
         # The difference has lost digits. The energy integral gives it from y.
         lost = -(at_radius * at_radius + k * k) * math.expm1(2 * b * (1 - y)) / (at_radius + u)
     return math.atan2(k * lost, k * k + at_radius * u) / (k * b)
 
 
-# Up to y = 1. The rows of `terms` are the coefficients of y, its derivative w, b w^2 + c, and
-# 2y - y^2. Times s along a series are counted from the start of its step, in the step's unit of
-# time, in which w and c are, too
+# Up to y = 1. The rows of `terms` are the coefficients of y, its derivative w, b w^2 + strength,
+# and 2y - y^2. Times s along a series are counted from the start of its step, in the step's unit
+# of time, in which w and strength are, too
 
 
 def _steps(
-    terms: Array, b: float, c: float, end_y: float, end_u: float
+    terms: Array, b: float, strength: float, end_y: float, end_u: float
 ) -> Iterator[tuple[float, float, float]]:
     """Fill in `terms` for each step from touch to y = end_y, u = end_u.
 
     Yields the step's start, the unit of time of its series, and its length in that unit.
     """
-    start, unit = 0.0, 1 / math.sqrt(1 + b + c)
+    start, unit = 0.0, 1 / math.sqrt(1 + b + strength)
     terms[0][0], terms[1][0] = 0.0, unit
     ended = False
     while not ended:
-        length = growth = _expand(terms, b, c * unit * unit)
+        length = growth = _expand(terms, b, strength * unit * unit)
         y, w = _state(terms, length)
         ended = y >= end_y or w <= end_u * unit
         if ended:
-            length = _locate(terms, end_y, end_u * unit, b, c * unit * unit, length)
+            length = _locate(terms, end_y, end_u * unit, b, strength * unit * unit, length)
         yield start, unit, length
         start += length * unit
         terms[0][0], terms[1][0] = y, w * growth
         unit *= growth
 
 
-def _expand(terms: Array, b: float, c: float) -> float:
+def _expand(terms: Array, b: float, strength: float) -> float:
     """Fill in the coefficients that follow from y and w at the start; return the step's length."""
     y, w, stress, area = terms[0], terms[1], terms[2], terms[3]
     y_0, w_0 = y[0], w[0]
-    stress_0, area_0 = b * w_0 * w_0 + c, 2 * y_0 - y_0 * y_0
+    stress_0, area_0 = b * w_0 * w_0 + strength, 2 * y_0 - y_0 * y_0
     y_k, w_k = w_0, -stress_0 * area_0
     stress[0], area[0], y[1], w[1] = stress_0, area_0, y_k, w_k
     for k in range(1, ORDER):
@@ -242,7 +244,7 @@ def _state(terms: Array, s: float) -> tuple[float, float]:
     return at, dy
 
 
-def _locate(terms: Array, y: float, w: float, b: float, c: float, s: float) -> float:
+def _locate(terms: Array, y: float, w: float, b: float, strength: float, s: float) -> float:
     """Return the time at which the motion has this y and w, by Newton's method from s.
 
     What vanishes is the distance from the state (y, w), projected on the direction of motion in the
@@ -250,7 +252,7 @@ def _locate(terms: Array, y: float, w: float, b: float, c: float, s: float) -> f
     """
     for _ in range(10):
         at, dy = _state(terms, s)
-        ddy = -(b * dy * dy + c) * (2 * at - at * at)
+        ddy = -(b * dy * dy + strength) * (2 * at - at * at)
         change = ((y - at) * dy + (w - dy) * ddy) / (dy * dy + ddy * ddy)
         s += change
         if abs(change) <= 1e-9 * s:  # the next change would be about its square

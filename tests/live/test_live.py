@@ -29,7 +29,7 @@ from replication import Impact, final_depth, run
 from replication.audit.record import Record
 from replication.cases import BETA_5, changed
 from replication.models.motion import stop_time
-from replication.reading import read_number
+from replication.user_input import read_number
 
 pytestmark = pytest.mark.slow
 

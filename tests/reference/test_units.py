@@ -45,9 +45,27 @@ NO_UNITS = [
 ]  # fmt: skip
 
 
+@pytest.mark.parametrize(("text", "known"), [("mph", "m/s"), ("km/h", "m/s"), ("atm", "Pa")])
+def test_a_unit_that_is_not_known_is_answered_with_one_of_its_kind(text: str, known: str) -> None:
+    message = f"unknown unit {text!r}: convert it to {known}"
+    with pytest.raises(UnitError, match=f"^{re.escape(message)}$"):
+        to_si(text)
+
+
 @pytest.mark.parametrize(
     ("text", "meant"),
-    [("umm", "um or mm"), ("mpa", "MPa"), ("kg*", "kg"), ("Mm", "mm"), ("kft", "ft"), ("NS", "ns")],
+    [
+        ("umm", "um or mm"),
+        ("mpa", "MPa"),
+        ("kg*", "kg"),
+        ("Mm", "mm"),
+        ("kft", "ft"),
+        ("NS", "ns"),
+        ("microns", "um"),
+        ("Micrometer", "um"),
+        ("inches", "in"),
+        ("sec", "s"),
+    ],
 )
 def test_a_unit_like_a_known_one_is_answered_with_that(text: str, meant: str) -> None:
     message = f"unknown unit {text!r}: did you mean {meant}?"

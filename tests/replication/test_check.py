@@ -10,6 +10,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 from foreign import messages, rates, writers
+from foreign.built import build
 from foreign.byhand import BY_HAND, made
 from foreign.drawn import drawn
 from foreign.edits import Case
@@ -17,6 +18,7 @@ from foreign.files import FILES, FOLDER
 from foreign.layouts import DEPTH, Foreign
 from foreign.rates import Known
 from foreign.spoiled import SECTIONS
+from foreign.strangers import draw
 from foreign.truth import Truth, ask, fault, outcome, told
 from foreign.words import other_impact
 from hypothesis import HealthCheck, example, given, settings
@@ -118,6 +120,22 @@ def test_no_right_stranger_is_accused(seed: int, tmp_path: Path) -> None:
     (right,) = rates.strangers([seed])
     answer = ask(right.written(tmp_path / "book.xlsx"))
     assert answer.status in (0, 2), told(answer)
+
+
+@pytest.mark.parametrize("seed", [
+    pytest.param(20261304, id="one row tells the diameter"),
+    pytest.param(20261368, id="no unit is stated"),
+    pytest.param(51000094, id="the inputs beside it are another table's"),
+    pytest.param(51000103, id="a force falls as the deceleration does"),
+    pytest.param(53000039, id="it ends below 1 m/s, and nothing says where it should"),
+    pytest.param(53000061, id="X/R grows as the depth does"),
+    pytest.param(55000092, id="the units of three columns follow from each other"),
+])  # fmt: skip
+def test_right_numbers_without_formulas_are_clean(seed: int, tmp_path: Path) -> None:
+    """Rows of strangers that were rounded to a few digits and pasted, with some inputs or none."""
+    right = build(draw(seed, pasted=True))
+    assert right is not None
+    assert told(ask(written(right.book, tmp_path))) == "0"
 
 
 @pytest.mark.slow

@@ -177,7 +177,9 @@ def test_the_schema_is_the_same_bytes_everywhere(
     assert printed.getvalue() == schema_text().encode("ascii")
 
 
-def test_audit_writes_its_files_and_a_summary_of_one_screen(tmp_path: Path) -> None:
+def test_audit_writes_its_files_and_a_summary_of_one_screen(
+    tmp_path: Path, record: Record, monkeypatch: pytest.MonkeyPatch
+) -> None:
     folder = tmp_path / "new" / "out"
     status, out, err = coldspray("audit", "--out", folder)
     assert (status, err) == (0, "")
@@ -192,6 +194,7 @@ def test_audit_writes_its_files_and_a_summary_of_one_screen(tmp_path: Path) -> N
     assert ending.endswith("Eq. 16 as printed is too small by a factor of 2.")  # the headline
     assert "audit.html" in out
     assert "\x1b" not in out
+    monkeypatch.setattr("replication.audit.audit.audit", lambda progress: record)
     status, out, _ = coldspray("audit", "--out", folder, "--exit-code", "--json")
     assert status == 1
     assert json.loads(out) == json.loads((folder / "audit.json").read_text("utf-8"))

@@ -94,8 +94,9 @@ def test_what_is_wrong_with_a_file(content: bytes, message: str, tmp_path: Path)
         ("v\n" + "x\n" * 8, "FILE, line 2, column 'v': 'x' is not a finite number with or without "
          "a unit, such as '1 m/s' (line 3, line 4, line 5, line 6, line 7, 2 more, too)"),
         ("v [um]\n500\n", "FILE, column 'v [um]': '1 um': um does not measure what m/s does"),
-        ("v [knots]\n500\n", "FILE, column 'v [knots]': unknown unit 'knots': take one such as um, "
-         "ns, m/s, kg/m^3, MPa or ksi"),
+        ("v [knots]\n500\n", "FILE, column 'v [knots]': unknown unit 'knots': convert it to m/s"),
+        ("v [cubits]\n500\n", "FILE, column 'v [cubits]': unknown unit 'cubits': take one such as "
+         "um, ns, m/s, kg/m^3, MPa or ksi"),
         ("v [m/s];x\n5,5;1\n", "FILE, line 2, column 'v [m/s]': '5,5 m/s': write a decimal comma "
          "as a point, and thousands without a comma"),
     ],

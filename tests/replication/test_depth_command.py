@@ -150,3 +150,17 @@ def test_a_crater_by_its_depth_or_its_volume(
 )  # fmt: skip
 def test_a_crater_that_cannot_be(arguments: str, line: str) -> None:
     assert coldspray("crater", *arguments.split()) == (2, "", f"coldspray crater: {line}\n")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "warning"),
+    [
+        ("crater --depth 50", "--depth is 50 m: from 1e-09 to 1 m is expected; did you mean "
+         '"50 um"?'),
+        ("depth --particle-strength 90", "--particle-strength is 90 Pa: from 10000 to 1e+12 Pa is "
+         'expected; did you mean "90 MPa"?'),
+    ],
+)  # fmt: skip
+def test_a_number_whose_unit_was_left_out_is_warned_of(arguments: str, warning: str) -> None:
+    status, _, err = coldspray(*arguments.split())
+    assert (status, err) == (0, f"coldspray {arguments.split()[0]}: warning: {warning}\n")

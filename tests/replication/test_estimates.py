@@ -167,11 +167,11 @@ def test_bad_inputs_of_estimates(call: Callable[[], object], message: str) -> No
 
 
 def crater_depth(volume_ratio: Number, radius: Number) -> Number:
-    return radius * inverse.depth_of_work(REALS, 4 * volume_ratio / 3)
+    return radius * inverse.depth_of_area_integral(REALS, 4 * volume_ratio / 3)
 
 
 def crater_volume_ratio(depth: Number, radius: Number) -> Number:
-    return 3 * inverse.work(REALS, depth / radius) / 4
+    return 3 * inverse.area_integral(REALS, depth / radius) / 4
 
 
 def goodier_beta(q_over_flow_stress: Number) -> Number:

@@ -115,10 +115,10 @@ def test_data_that_no_resistance_fits_have_a_best_one_all_the_same() -> None:
         (BETA_5, [Measurement(500.0, *CASE, 1e-6, 1e-8), Measurement(500.0, *CASE, 1e-6)],
          "resistance", "some measurements have an uncertainty and others not: give all or none"),
         (BETA_5, [Measurement(500.0, *CASE, 1.0, line=7)], "resistance",
-         "line 7: the depth is 9.09e+04 times the radius: resistance is 0.0 for this depth: "
-         "doubles carry 1e-250 to 1e250 safely (with depth 1.0, velocity 500.0, radius 1.1e-05, "
-         "particle_density 8900.0, target_density 7850.0); does its head lack a unit, such as "
-         "'depth [um]'?"),
+         "line 7: does the depth's head lack a unit, such as 'depth [um]'? (the depth is 9.09e+04 "
+         "times the radius: resistance is 0.0 for this depth: doubles carry 1e-250 to 1e250 safely "
+         "(with depth 1.0, velocity 500.0, radius 1.1e-05, particle_density 8900.0, "
+         "target_density 7850.0))"),
     ],
 )  # fmt: skip
 def test_what_cannot_be_fitted(
@@ -136,7 +136,7 @@ def example() -> str:
     generator = random.Random(2006)
     lines = [
         "# Made by the model, not measured: R_t = 3.5 GPa, normal noise of the given uncertainty,",
-        "# 11 um copper spheres (8900 kg/m^3) on steel (7850 kg/m^3).",
+        "# copper spheres of radius 11 um (8900 kg/m^3) on steel (7850 kg/m^3).",
         "velocity [m/s],depth [um],uncertainty [um]",
     ]
     for velocity in range(300, 701, 40):
@@ -165,15 +165,50 @@ def test_inputs_are_the_files_or_else_the_cases(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    "head", ["std", "sd", "error", "+/-", "±", "depth error", "u(depth)", "Depth_SD", "sigma"]
+)
+def test_usual_names_of_uncertainties_are_known(head: str, tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text(f"v,x [um],{head} [um]\n500,7.6,0.5\n", "utf-8")
+    assert read_measurements(file, BETA_5)[0].uncertainty == 0.5e-6
+
+
+def test_the_unit_of_an_uncertainty_may_stand_in_its_cells(tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text("v,x [um],sd\n500,7.6,0.5 um\n", "utf-8")
+    assert read_measurements(file, BETA_5)[0].uncertainty == 0.5e-6
+
+
+@pytest.mark.parametrize("head", ["diameter [um]", "D (um)", "Particle dia. [um]", "D_um"])
+def test_of_a_diameter_the_radius_is_half(head: str, tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text(f"v,x/R,std,{head}\n500,0.5,0.25,8\n", "utf-8")
+    (measurement,) = read_measurements(file, BETA_5)
+    assert (measurement.radius, measurement.depth) == (4e-6, 2e-6)
+    assert measurement.uncertainty == 1e-6
+
+
+@pytest.mark.parametrize(
     ("content", "message"),
     [
         ("v,y\n1,2\n", "FILE has no column 'depth': name one so, such as 'depth [m]' (it has 'v', "
          "'y')"),
         ("v,x\n500,1e-6\n0,1e-6\n400,-1\n500,0\n",
-         "FILE, line 3: velocity is 0.0: it must be a finite number greater than zero (line 4, "
-         "line 5, too)"),
+         "FILE, line 3: velocity is 0: it must be a number greater than zero (line 4, line 5, "
+         "too)"),
+        ("v,x [um]\n500,-2.1\n",
+         "FILE, line 2: depth is -2.1 um: it must be a number greater than zero"),
         ("v,x,sigma\n500,1e-6,0\n",
-         "FILE, line 2: uncertainty is 0.0: it must be a finite number greater than zero"),
+         "FILE, line 2: uncertainty is 0: it must be a number greater than zero"),
+        ("v,x [um],sigma\n500,7.6,0.2\n", "FILE, column 'sigma': has no unit, beside 'x [um]': "
+         "write 'sigma [um]' if it is in um"),
+        ("v,x [um]\n500,7.6 ± 0.2\n", "FILE, line 2, column 'x [um]': '7.6 ± 0.2' is a number "
+         "and its uncertainty: put that into a column of its own, 'uncertainty [um]'"),
+        ("v,x,D,R\n500,1e-6,2,1\n",
+         "FILE has both a radius and a diameter: leave one of them out"),
+        ("speed,deep\n1,2\n", "FILE has no column 'velocity' and no column 'depth': name one so, "
+         "such as 'velocity [m/s]', and name 'deep' so, such as 'depth [m]' (it has 'speed', "
+         "'deep')"),
         ("v,x [um]\n500,7.6\n400,?\n", "FILE, line 3, column 'x [um]': '? um' is not a finite "
          "number with or without a unit, such as '1 m'"),
     ],

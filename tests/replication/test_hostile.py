@@ -210,7 +210,12 @@ def test_of_two_files_none_is_replaced_if_the_disk_is_full_at_the_second(
         ),
         ("sweep", "write_sweep", ["sweep", "PLAN"], "plan.csv: the current folder was deleted"),
         ("bench.measure", "bench", ["bench", "--out", "b"], "b: this folder cannot be created: "),
-        ("check.workbook", "check", ["check", "x", "--html", "y"], "y: the current folder was del"),
+        (
+            "check.workbook",
+            "check_workbook",
+            ["check", "x", "--html", "y"],
+            "y: the current folder was del",
+        ),
         (
             "bench.measure",
             "bench",

@@ -142,7 +142,7 @@ def history(times: list[float], *case: float) -> tuple[list[float], list[float]]
 
 def roundings(truth: Trajectory) -> float:
     """Return 64 ulp, and 16 for each unit of the exponent of v^2, which exp magnifies."""
-    return (64 + 16 * float(truth.context.log1p(truth.drag / truth.push))) * ULP
+    return (64 + 16 * float(truth.context.log1p(truth.inertial / truth.strength))) * ULP
 
 
 @given(CASES, st.sampled_from(list(BETA_5.motion)))
@@ -270,7 +270,7 @@ def test_times_in_the_lightest_target() -> None:
 @given(st.floats(1e-6, 0.5))
 def test_a_crater_has_the_volume_that_gave_its_depth(ratio: float) -> None:
     """A depth of y radii buries a share y^2 (3 - y) / 4 of the sphere."""
-    y = crater.depth_from_volume_ratio(ratio)
+    y = crater.normalized_depth_from_volume_ratio(ratio)
     assert y * y * (3 - y) / 4 == pytest.approx(ratio, rel=1e-14)
 
 

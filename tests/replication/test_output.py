@@ -32,6 +32,7 @@ AT_STOP = [
     "the stop velocity 1.0 m/s ends the run before rest: 99.3 % of the exact depth is still to "
     "come",
 ]
+SLOW = "--velocity is 0.5 m/s: from 1 to 100000 m/s is expected"
 NO_STEPS = "the velocity 0.5 m/s is below the stop velocity 1.0 m/s: no steps"
 
 
@@ -60,7 +61,7 @@ NO_STEPS = "the velocity 0.5 m/s is below the stop velocity 1.0 m/s: no steps"
         ),
         ("sheet-4-ns.txt", ["sheet", "--step", "4 ns"], [COARSE, SHALLOW]),
         ("sheet-4-ns.csv", ["sheet", "--step", "4 ns", "--csv", "--quiet"], []),
-        ("sheet-no-steps.txt", ["sheet", "--velocity", "0.5"], [NO_STEPS]),
+        ("sheet-no-steps.txt", ["sheet", "--velocity", "0.5"], [SLOW, NO_STEPS]),
         ("sheet-no-steps.json", ["sheet", "--velocity", "0.5", "--json"], []),
         ("sheet-at-stop.csv", ["sheet", "--velocity", "1", "--csv"], AT_STOP),
         ("depth-models.txt", ["depth", "--models", "--k-1", "0.5"], []),
@@ -90,7 +91,7 @@ NO_STEPS = "the velocity 0.5 m/s is below the stop velocity 1.0 m/s: no steps"
         ("fit.txt", ["fit", FIT], []),
         ("fit-beta.csv", ["fit", FIT, "--quantity", "beta", "--csv"], []),
         ("history-3.txt", ["history", "--points", "3"], []),
-        ("history-times.txt", ["history", "--times", "0 ns,5 ns, 1e-6"], []),
+        ("history-times.txt", ["history", "--times", "0,5 ns, 1 us"], []),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

@@ -303,6 +303,21 @@ def test_a_sweep_writes_its_file_and_its_figure(tmp_path: Path) -> None:
     assert {"Impact velocity [m/s]", "fit.csv"} <= set(shown(figure.read_bytes()))
 
 
+def test_columns_of_ones_own_points_that_are_not_drawn_are_named(tmp_path: Path) -> None:
+    data = own(tmp_path, "own.csv", "t [ns],x [um],size [um],std [um]\n5,2.4,22,0.1\n")
+    plotted = ("history", "--points", "2", "--plot", tmp_path / "figure.svg", "--data", data)
+    note = f"{data}: columns not used: 'size [um]'"
+    assert f"note: {note}" in " ".join(coldspray(*plotted)[1].split())
+    assert json.loads(coldspray(*plotted, "--json")[1])["notes"] == [note]
+
+
+def test_an_error_that_an_axis_shows_is_no_uncertainty(tmp_path: Path) -> None:
+    data = own(tmp_path, "own.csv", "dt [ns],error [nm],depth [um],sd [um]\n1,25,7.6,0.1\n")
+    points = plots.read_points(data, plots.STEP, (plots.ERROR, plots.DEPTH))
+    assert points.columns[plots.ERROR] == [25e-9]
+    assert points.columns[plots.UNCERTAINTY] == [0.1e-6]
+
+
 def test_a_fit_draws_further_points_that_it_does_not_fit(tmp_path: Path) -> None:
     (tmp_path / "others.csv").write_text("velocity [m/s],depth [um]\n450,7\n650,10\n")
     figure = tmp_path / "fit.svg"

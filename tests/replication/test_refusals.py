@@ -235,7 +235,8 @@ def test_what_is_no_toml_is_refused(command: str, content: str, hostile: Path) -
                 "--radius",
                 "1e-50",
             ],
-            "work is 5e+299: doubles carry 1e-250 to 1e250 safely",
+            "kinetic energy density over target resistance is 5e+299: doubles carry 1e-250 to "
+            "1e250 safely",
         ),
         (["depth", "--case-file", "absent.toml"], "absent.toml: No such file or directory"),
         (["depth", "--case-file", "."], ".: Is a directory"),
@@ -354,6 +355,14 @@ def test_a_case_file_is_refused(
         (
             ["history", "--times", "0,-1 ns"],
             "--times, value 2: '-1 ns' is not between 0 and 1e250 s",
+        ),
+        (
+            ["history", "--times", "0,5,10 ns"],
+            "--times: '5' has no unit, and others have one: write \"0 ns,5 ns,10 ns\"",
+        ),
+        (
+            ["converge", "--steps", "0.4 ns, 0.2"],
+            "--steps: '0.2' has no unit, and others have one: write \"0.4 ns,0.2 ns\"",
         ),
         (
             ["history", "--times", "soon"],

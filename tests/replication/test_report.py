@@ -505,6 +505,28 @@ def test_what_the_figures_say(name: str, words: str, files: dict[str, bytes]) ->
     assert " | ".join(str(text.text) for text in root.iter(f"{SVG}text")) == words
 
 
+def test_the_middle_velocity_has_dashed_lines_and_hollow_marks(files: dict[str, bytes]) -> None:
+    """So that the two schemes differ in gray; the marks of the report's own are filled."""
+    root = ET.fromstring(files["figures/convergence.svg"])
+    shapes = [*root.iter(f"{SVG}circle"), *root.iter(f"{SVG}rect")]
+    hollow = {center(shape) for shape in shapes if shape.get("fill") == "none"}
+    for line in root.iter(f"{SVG}polyline"):
+        if points := [
+            tuple(map(float, point.split(","))) for point in line.get("points", "").split()
+        ]:
+            assert {point in hollow for point in points} == {
+                line.get("stroke-dasharray") is not None
+            }
+
+
+def center(shape: ET.Element) -> tuple[float, float]:
+    """The center of a circle or a square of an SVG, to the decimals that it prints."""
+    if shape.tag == f"{SVG}circle":
+        return float(shape.attrib["cx"]), float(shape.attrib["cy"])
+    half = float(shape.get("width", 0)) / 2
+    return float(shape.get("x", 0)) + half, float(shape.get("y", 0)) + half
+
+
 @pytest.mark.skipif(shutil.which("chromium") is None, reason="needs the browser chromium")
 def test_it_prints_on_28_sheets(files: dict[str, bytes], tmp_path: Path) -> None:
     source, target = tmp_path / "audit.html", tmp_path / "audit.pdf"

@@ -151,6 +151,33 @@ TYPED: Mapping[tuple[int, int], Content] = {
     pytest.param("=OFFSET(A1,-1,0)", Error("#REF!"), id="above the sheet"),
     pytest.param('=SUMIF(A1:A9,">7")', 17.0, id="a sum under a condition"),
     pytest.param("=SUMPRODUCT(A1:A3,A2:A4)", 20.0, id="sum of products"),
+    # Every function of numbers, where its value is known without a computer.
+    pytest.param("=SINH(0)", 0.0, id="SINH"),
+    pytest.param("=COSH(0)", 1.0, id="COSH"),
+    pytest.param("=TANH(0)", 0.0, id="TANH"),
+    pytest.param("=TAN(0)", 0.0, id="TAN"),
+    pytest.param("=ACOS(1)", 0.0, id="ACOS"),
+    pytest.param("=ASIN(1)=PI()/2", True, id="ASIN"),
+    pytest.param("=ATAN(1)=PI()/4", True, id="ATAN"),
+    pytest.param("=DEGREES(PI())", 180.0, id="DEGREES"),
+    pytest.param("=EXP(0)", 1.0, id="EXP"),
+    pytest.param("=LOG(1000)", 3.0, id="LOG to the base 10"),
+    pytest.param("=LOG(8,2)", 3.0, id="LOG to the base 2"),
+    pytest.param("=LOG10(1000)", 3.0, id="LOG10"),
+    pytest.param("=SIGN(-2)", -1.0, id="SIGN"),
+    pytest.param("=CEILING(2.25,0.5)", 2.5, id="CEILING"),
+    pytest.param("=FLOOR(2.75,0.5)", 2.5, id="FLOOR"),
+    pytest.param("=ROUNDDOWN(2.789,2)", 2.78, id="ROUNDDOWN"),
+    pytest.param("=SUMSQ(A3:A4)", 25.0, id="SUMSQ"),
+    pytest.param("=MEDIAN(A1:A9)", 5.0, id="MEDIAN"),
+    pytest.param("=STDEV(A1:A3)", 1.0, id="STDEV"),
+    pytest.param("=NOT(A1>0)", False, id="NOT"),
+    pytest.param("=CHOOSE(2,A5,A7)", 7.0, id="CHOOSE"),
+    pytest.param("=IFS(A1>1,1,A2>1,2)", 2.0, id="IFS"),
+    pytest.param("=ISBLANK(Z1)", True, id="ISBLANK"),
+    pytest.param("=ISTEXT(B1)", True, id="ISTEXT"),
+    pytest.param("=ISLOGICAL(B2)", True, id="ISLOGICAL"),
+    pytest.param("=COLUMN(C1)", 3.0, id="COLUMN"),
 ])  # fmt: skip
 def test_formulas_mean_what_spreadsheets_mean(formula: str, value: Scalar) -> None:
     evaluator = evaluated({**TYPED, D9: formula})
@@ -179,6 +206,7 @@ def test_formulas_mean_what_spreadsheets_mean(formula: str, value: Scalar) -> No
     pytest.param("=[1]Sheet1!A1", "it refers outside the workbook", id="another workbook"),
     pytest.param("='[1]My sheet'!A1", "it refers outside the workbook", id="another one, quoted"),
     pytest.param("=LN(1,2)", "it gives LN 2 arguments", id="too many arguments"),
+    pytest.param("=INDEX(A1:A9)", "it gives INDEX 1 arguments", id="too few arguments"),
     pytest.param(
         "=" + 65 * "(" + "1" + 65 * ")", "it is nested more than 64 levels deep", id="deep"
     ),

@@ -227,6 +227,19 @@ def test_what_the_workbook_calls_printed_is_its_claims_text(book: Workbook) -> N
         assert not cell.claim or shows_its_claim(cell, LEDGER), place
 
 
+def test_the_inputs_have_their_units_beside_them(published: Workbook) -> None:
+    """As typed and as used; a pure number has a dash, so that no unit is missing."""
+    cells = sheet(published, "Inputs").cells
+    rows = {cell.key: place[1:] for place, cell in cells.items() if cell.named}
+    expected = {
+        "V_impact": ("m/s", "m/s"), "R_p": ("µm", "m"), "rho_p": ("kg/m³", "kg/m³"),
+        "k_1": ("–", "–"),
+    }  # fmt: skip
+    assert {
+        key: (cells[f"D{rows[key]}"].text, cells[f"G{rows[key]}"].text) for key in expected
+    } == expected
+
+
 def test_every_claim_is_shown(published: Workbook) -> None:
     assert {cell.claim for cell in published.plan.cells.values()} - {""} == set(LEDGER.claims)
 

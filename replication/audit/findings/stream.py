@@ -15,7 +15,7 @@ from replication.audit.findings.evidence import (
 )
 from replication.audit.record import Finding
 from replication.audit.results import Results, case, exact_ratio
-from replication.models.crater import depth_from_volume_ratio, volume_ratio
+from replication.models.crater import normalized_depth_from_volume_ratio, volume_ratio
 
 GAUSSIAN = sqrt(2 / pi)
 """The mean deviation of a normal distribution over its standard deviation."""
@@ -227,7 +227,7 @@ def observed_digits(audit: Results) -> Finding:
     """The observed X/R is printed with more digits than the ratio of volumes has."""
     text, exact = audit.text, audit.exact
     ends = audit.ledger.claims["volume-ratio"].target().ends
-    line_ratio = depth_from_volume_ratio(audit["volume-ratio-line"])
+    line_ratio = normalized_depth_from_volume_ratio(audit["volume-ratio-line"])
     profile_ratio = audit["profile-depth"] / (audit["mean-diameter"] / 2)
     line = prints("line", "0.293", line_ratio, "1", "X/R from the line of Figure 1")
     line_depth = prints(
@@ -235,11 +235,11 @@ def observed_digits(audit: Results) -> Finding:
         "depth from the line of Figure 1",
     )  # fmt: skip
     least = at_least(
-        "least", "0.284", depth_from_volume_ratio(float(ends[0])), "1",
+        "least", "0.284", normalized_depth_from_volume_ratio(float(ends[0])), "1",
         "least X/R of a CV/PV that prints so",
     )  # fmt: skip
     greatest = at_most(
-        "greatest", "0.311", depth_from_volume_ratio(float(ends[1])), "1",
+        "greatest", "0.311", normalized_depth_from_volume_ratio(float(ends[1])), "1",
         "greatest X/R of a CV/PV that prints so",
     )  # fmt: skip
     profile = prints(

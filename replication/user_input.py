@@ -247,6 +247,16 @@ def _number_and_unit(text: str, unit: str) -> tuple[str, str]:
     return match["number"], given_unit or "1"
 
 
+def typed_unit(text: str) -> str:
+    """Return the unit with which a number is written, known or not; "" for none.
+
+    >>> typed_unit("5 ns"), typed_unit("5e-9"), typed_unit("ns")
+    ('ns', '', '')
+    """
+    match = _NUMBER.fullmatch(in_ascii(text.strip()))
+    return match["unit"].strip() if match else ""
+
+
 def read_number(text: str, unit: str) -> float:
     """Read a number, with or without a unit, and convert it to SI.
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from replication.reading import line_of
+from replication.user_input import line_of
 
 PLAN = """\
 # radius = 1
