@@ -179,9 +179,12 @@ def test_the_program_of_these_tests_is_right_without_changes(tmp_path: Path) -> 
     assert told(csv(scheme(DEEP)), tmp_path) == "clean"
 
 
-def test_every_place_in_a_text_file_is_where(tmp_path: Path) -> None:
+def test_every_place_in_a_text_file_is_where(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Of a difference, a column, and a printed number of the report that the rows hold."""
-    path = tmp_path / "mine.csv"
+    monkeypatch.chdir(tmp_path)
+    path = Path("mine.csv")
     path.write_text(csv(scheme(BETA_5, centered=True)))
     record = check_record(check_workbook(path))
     columns = record["taken"][0]["columns"].values()

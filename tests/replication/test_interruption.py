@@ -160,8 +160,8 @@ def test_a_damaged_cache_is_compiled_anew(
     monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
     expected = betas()
     (file,) = tmp_path.rglob(f"*.{ending}")
-    whole = file.stat().st_size
-    file.write_bytes(damage(file.read_bytes()))
+    damaged = damage(file.read_bytes())
+    file.write_bytes(damaged)
     assert betas() == expected
-    assert file.stat().st_size == whole
+    assert file.stat().st_size > len(damaged)
     arrays.compiled.cache_clear()
