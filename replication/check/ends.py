@@ -66,6 +66,8 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
     if wanted is None or not wanted or 1 not in table.rows:
         return
     line, place = table.lines["depth"], table.place("depth", 1)
+    if any(place in d.cells for d in exam.differences if d.explanation.startswith("explicit Euler")):
+        return  # of which a first row with the whole step is a part
     is_formula = place in table.evaluator.formulas
     value, step = table.number("depth", 1), inputs.cells.get("step")
     if value is None:

@@ -895,3 +895,18 @@ def _step_of(roles: Mapping[str, Line]) -> float:
         if speed.values.get(j)
     ]
     return abs(median(steps)) if steps else 0.0
+
+
+def with_only_velocity_at_start(table: SchemeTable) -> SchemeTable | None:
+    """The table with its only velocity taken for that at the start of the rows.
+
+    Textbooks put depth, velocity and deceleration of one moment into one row. None if the table
+    shows the velocities at both ends of its rows, or at their start.
+    """
+    if "velocity_initial" in table.lines:
+        return None
+    roles = {"depth": table.lines["depth"], "velocity_initial": table.lines["velocity_final"]}
+    taken = set(roles.values())
+    beside = [o for o in (*table.lines.values(), *table.helpers) if o not in taken]
+    c = _step_of({name: table.lines[name] for name in ("depth", "velocity_final")})
+    return _completed(table.evaluator, roles, beside, c) if c else None
