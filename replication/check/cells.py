@@ -113,7 +113,10 @@ def _start_velocity(exam: Examination, k: int, mended: Mended) -> float | None:
 def _next_depth(exam: Examination, k: int, mended: Mended) -> float | None:
     """The depth in row k by that of the row before and the velocity; half a step in the first."""
     is_euler = exam.fitted.ways.get("depth") is VARIANTS["explicit Euler"]
-    before, v = _number_meant(exam, mended, "depth", k - 1), _start_velocity(exam, k - is_euler, mended)
+    before, v = (
+        _number_meant(exam, mended, "depth", k - 1),
+        _start_velocity(exam, k - is_euler, mended),
+    )
     if v is None or (before is None and k != 1):
         return None
     c = exam.fitted.six.c

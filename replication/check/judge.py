@@ -23,6 +23,7 @@ from replication.check.six import (
     first_written,
     start_of_row,
 )
+from replication.check.solved import tell_solved
 from replication.check.table import Line, SchemeTable, cell_name
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
 from replication.check.units import Balance, Magnitude, equations, right_units, state_units
@@ -95,6 +96,7 @@ def examine(
         first_rows(exam, inputs, idle)
         odd_cells(exam, inputs)
     judge_stop(exam, idle)
+    tell_solved(exam)
     exam.differences.sort(key=lambda d: d.rank)
     return exam
 

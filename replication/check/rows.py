@@ -97,13 +97,11 @@ def _fit_numbers_either_way(table: SchemeTable) -> tuple[SchemeTable, TableFit]:
     the report's scheme. In explicit Euler it is the one at its start: only the force tells.
     """
     fitted = fit_numbers(table)
-    if fitted.followed > MOST:
-        return table, fitted
-    trial = with_only_velocity_at_start(table)
+    trial = None if fitted.followed == 1 else with_only_velocity_at_start(table)
     if trial is None:
         return table, fitted
     euler = fit_numbers(trial, VARIANTS["explicit Euler"])
-    return (trial, euler) if euler.followed > MOST else (table, fitted)
+    return (trial, euler) if euler.followed > fitted.followed else (table, fitted)
 
 
 def fit_numbers(table: SchemeTable, growth: Variant = REPORT["depth"]) -> TableFit:
@@ -133,11 +131,12 @@ def fit_numbers(table: SchemeTable, growth: Variant = REPORT["depth"]) -> TableF
     ways["depth"] = growth
     if force.centered:
         ways["deceleration"] = VARIANTS["centered"]
+    shares = _share_near(growths, c), _share_near(falls, e), _share_explained(rows, force, e)
     return TableFit(
         six, time, sign, ways, "deceleration" if shown else end[0],
         bounded=force.bounded, centered=force.centered, digits=_fewest_digits(table), rough=rough,
         errors=Six(*force.errors, c_error, e_error, V_error), time_error=time_error,
-        followed=min(_share_near(growths, c), _share_near(falls, e), _share_explained(rows, force, e)),
+        followed=min(shares),
     )  # fmt: skip
 
 
