@@ -96,18 +96,27 @@ def _fit_numbers_either_way(table: SchemeTable) -> tuple[SchemeTable, TableFit]:
     If the depth grows by the velocity in the row before, this is the one at the end of that row in
     the report's scheme. In explicit Euler it is the one at its start: only the force tells.
     """
-    fitted = fit_numbers(table)
-    trial = None if fitted.followed == 1 else with_only_velocity_at_start(table)
+    plain = fit_numbers(table, only_report=True)
+    if plain.followed == 1:
+        return table, plain
+    trial = with_only_velocity_at_start(table)
     if trial is None:
-        return table, fitted
-    euler = fit_numbers(trial, VARIANTS["explicit Euler"])
+        return table, fit_numbers(table)
+    way = VARIANTS["explicit Euler"]
+    euler = fit_numbers(trial, way, only_report=True)  # most are right in all rows: fits take time
+    if euler.followed == 1:
+        return trial, euler
+    fitted, euler = fit_numbers(table), fit_numbers(trial, way)
     return (trial, euler) if euler.followed > fitted.followed else (table, fitted)
 
 
-def fit_numbers(table: SchemeTable, growth: Variant = REPORT["depth"]) -> TableFit:
+def fit_numbers(
+    table: SchemeTable, growth: Variant = REPORT["depth"], only_report: bool = False
+) -> TableFit:
     """Fit the rows of a table without formulas; of few rows with few digits only the steps.
 
-    `growth` is the way in which the depth grows: the report's, or explicit Euler.
+    `growth` is the way in which the depth grows: the report's, or explicit Euler. `only_report`
+    tries no other force than the report's.
     """
     end, shown = end_of_row(table), "deceleration" in table.lines
     growths = list(_growths(table, growth is VARIANTS["explicit Euler"]))
@@ -121,7 +130,7 @@ def fit_numbers(table: SchemeTable, growth: Variant = REPORT["depth"]) -> TableF
     rough = median(row.error for row in rows) if rows else EXACT
     force = ForceOfRows(math.nan, math.nan, math.nan)
     if rows and math.isfinite(e) and -len(rows) * math.log10(rough) > _ENOUGH:
-        force = _best_force(rows, abs(e))
+        force = _fitted_force(rows) if only_report else _best_force(rows, abs(e))
     time, time_error = _common_ratio(list(_time_steps(table)))
     V = impact_velocity(table)
     speed = table.lines["velocity_initial" if "velocity_initial" in table.lines else end[0]]

@@ -49,12 +49,12 @@ def _agree(exam: Examination, value: float, wanted: float, error: float) -> bool
 
 
 def _as_known(value: float, error: float) -> float:
-    """A number with as many digits as its relative error leaves, and one more.
+    """A number with as many digits as its relative error leaves.
 
     >>> _as_known(1.0999999999999986e-05, 1e-9), _as_known(449.98765, 1e-3)
-    (1.1e-05, 449.99)
+    (1.1e-05, 450.0)
     """
-    digits = min(_MOST_DIGITS, max(2, math.ceil(-math.log10(max(error, 1e-15))) + 2))
+    digits = min(_MOST_DIGITS, max(2, math.floor(-math.log10(max(error, 1e-15)))))
     return float(f"{value:.{digits - 1}e}")
 
 

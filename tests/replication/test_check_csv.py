@@ -225,9 +225,10 @@ INPUTS = pytest.mark.parametrize(
 
 
 @INPUTS
-@pytest.mark.parametrize("form", ["", ".12g", ".6g"])
-@pytest.mark.parametrize("names", [TEXTBOOK, TEXTBOOK[:3]], ids=["braked", "bare"])
-@pytest.mark.parametrize("above", ["", "radius [um],{}\n"], ids=["no inputs", "the radius above"])
+@pytest.mark.parametrize("form", [".12g", ".6g"])
+@pytest.mark.parametrize(("names", "above"), [
+    (TEXTBOOK, ""), (TEXTBOOK[:3], ""), (TEXTBOOK[:3], "radius [um],{}\n"),
+], ids=["braked", "bare", "the radius above"])  # fmt: skip
 def test_explicit_euler_is_named_once_and_no_number_is_accused(
     impact: Impact, form: str, names: Sequence[str], above: str, tmp_path: Path
 ) -> None:
@@ -249,7 +250,7 @@ def test_explicit_euler_is_named_once_and_no_number_is_accused(
 
 
 @INPUTS
-@pytest.mark.parametrize("form", ["", ".12g", ".6g"])
+@pytest.mark.parametrize("form", ["", ".6g"])
 @pytest.mark.parametrize("within", [1, 8], ids=["Runge-Kutta", "as good as exact"])
 def test_rows_of_a_better_method_are_found_and_not_judged(
     impact: Impact, form: str, within: int, tmp_path: Path
@@ -259,14 +260,13 @@ def test_rows_of_a_better_method_are_found_and_not_judged(
         told(csv(runge_kutta(impact, within), names, form), tmp_path)
 
 
-@pytest.mark.parametrize("form", ["", ".12g", ".6g"])
-@pytest.mark.parametrize("power", [1, 3], ids=["linear drag", "cubic drag"])
+@pytest.mark.parametrize(("power", "form"), [(1, ".12g"), (3, ".6g")])
 def test_rows_that_mostly_follow_no_such_force_are_not_judged(
     power: int, form: str, tmp_path: Path
 ) -> None:
     rows: list[Numbers] = []
     x, v = 0.0, 500.0
-    for k in range(60):
+    for k in range(30):
         rows.append([k * 0.2, x * 1e6, v])
         x += v * 2e-10
         v -= 2e-10 * 4e10 * v * (v / 500) ** (power - 1) * (x / 5e-6) ** 2
