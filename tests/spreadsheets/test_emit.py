@@ -16,7 +16,15 @@ from workbooks import rewritten, usable
 
 from replication.workbook import Workbook
 from spreadsheets import emit, safely
-from spreadsheets.plan import Cell, Chart, ChartCurve, SheetPlan, WorkbookPlan, formula
+from spreadsheets.plan import (
+    ROW_HEIGHT,
+    Cell,
+    Chart,
+    ChartCurve,
+    SheetPlan,
+    WorkbookPlan,
+    formula,
+)
 
 
 def plan_of(**cells: Cell) -> WorkbookPlan:
@@ -100,6 +108,16 @@ def test_the_sheets_are_sound_as_far_as_their_parts_tell(emitted: Any) -> None:
         assert text.count("<ignoredError ") == 4
         assert 'evalError="1"' in text
     assert sum("<autoFilter " in text for text in sheets) == 1
+
+
+def test_a_text_longer_than_its_column_has_room_for_two_lines(emitted: Any) -> None:
+    parts = parts_of(emitted.path.read_bytes())
+    for number, page in enumerate(emitted.book.plan.sheets, start=1):
+        rows = parts[f"xl/worksheets/sheet{number}.xml"]
+        heights = dict(re.findall(r'<row r="(\d+)"[^>]* ht="([\d.]+)"', rows))
+        for address, cell in page.cells.items():
+            if cell.wrap and len(cell.text) > 1.2 * page.widths[address[0]]:
+                assert float(heights[address[1:]]) == 2 * ROW_HEIGHT, (page.name, address)
 
 
 def test_charts_store_numbers_and_are_described(emitted: Any) -> None:
