@@ -113,8 +113,8 @@ def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:
     assert {verdict: meaning for verdict, _, meaning in table} == MEANINGS
     counts, text = record.counts, " ".join(README.split())
     assert (
-        f"**{counted_briefly(counts)}** For one of these {counts.independent} to fail, any of several "
-        "printed numbers, or the equation that computes it, would have to be wrong."
+        f"**{counted_briefly(counts)}** For one of these {counts.independent} to fail, any of "
+        "several printed numbers, or the equation that computes it, would have to be wrong."
     ) in text
     assert (
         f"The other {counts.reproduced - counts.independent} that are reproduced tell less: "

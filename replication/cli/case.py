@@ -28,7 +28,8 @@ def add_inputs(
 
     with_sheet: the sheet's step and stop velocity act on the result. If they do not, they are still
     accepted and checked, so that one set of options serves all commands, but the help leaves them
-    out and `case_of` warns. without: further inputs that the help leaves out, as the command refuses them.
+    out and `case_of` warns. without: further inputs that the help leaves out, as the command
+    refuses them.
     """
     group = parser.add_argument_group(
         "the case",

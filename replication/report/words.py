@@ -143,7 +143,8 @@ def counts_in_words(counts: r.Counts) -> str:
     return (
         f"For one of these {counts.independent} to fail, any of several printed numbers, or the "
         f"equation that computes it, would have to be wrong. {tell_less} more of the report's "
-        f"{counts.numbers} numbers come out, but tell less: from {counts.evidence} the target density was inferred, "
+        f"{counts.numbers} numbers come out, but tell less: from {counts.evidence} the target "
+        "density was inferred, "
         f"{counts.by_definition} only scale, multiply or pick printed numbers, {counts.repeats} "
         f"repeat an earlier one, and {counts.constants} are factors and powers in its equations. "
         f"Of the {counts.equations} equations, {counts.equations_derived} follow from earlier ones "
@@ -192,7 +193,7 @@ def density(record: r.Record) -> str:
     )
     if usual.assumed > usual.with_printed_mass[1]:
         sentence += (
-            f": with the printed mass, {TAKEN_EXACTLY}, no more than "
+            f": with that, {TAKEN_EXACTLY}, no more than "
             f"{quantity(greatest, entry.unit)} is possible, so not the {taken} assumed"
         )
     return f"{sentence}."

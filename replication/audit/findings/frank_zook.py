@@ -139,9 +139,9 @@ def headline(audit: Results) -> Finding:
         "headline",
         title="What the audit found",
         statement="With a target density inferred from eight cells of Table A-1, and the sphere's "
-        "mass in place of the printed one, the model's own numbers reproduce to the last printed digit; "
-        "the two Frank-Zook values do not and, if computed at one velocity and with one pair of "
-        "densities, cannot both be right; "
+        "mass in place of the printed one, the model's own numbers reproduce to the last printed "
+        "digit; the two Frank-Zook values do not and, if computed at one velocity and with one "
+        "pair of densities, cannot both be right; "
         f"Eq. 16 as printed is too small by a factor of {factor}.",
         status="explained",
         evidence=evidence,
@@ -577,8 +577,8 @@ def frank_zook_values(audit: Results) -> Finding:
         f"/2*k_t multiplies by k_t. With X/R twice X/D that gives {multiplied} for {assumed} "
         f"kg/m^3, and prints {text('frank-zook-rha')} "
         f"for every density from {from_} to {below}, so for all that the header with its printed "
-        f"mass admits; for stainless steel it gives {multiplied_other}. With the density ratio on k_1 "
-        f"in place of L/D, X/R twice X/D, stainless steel gives {on_k_1}, which prints "
+        f"mass admits; for stainless steel it gives {multiplied_other}. With the density ratio on "
+        f"k_1 in place of L/D, X/R twice X/D, stainless steel gives {on_k_1}, which prints "
         f"{text('frank-zook-stainless')}, and armor {on_k_1_other}. Two other ways to "
         f"{text('frank-zook-stainless')}: on a grid of {grid} GPa the resistance that comes "
         f"nearest to the observed {text('observed-depth-ratio')} is {nearest} GPa, and it gives "
