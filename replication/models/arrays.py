@@ -535,8 +535,6 @@ def _compiled(model: Model, alone: bool) -> Any:
     from filelock import FileLock
     from numba import b1, f8, i8, types, void
 
-    if numba.config.DISABLE_JIT:
-        raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
     _make_known()
     line = types.Array(f8, 1, "C", readonly=True)
     compilers = {
@@ -595,6 +593,8 @@ def import_numba() -> Any:
         except ValueError as error:  # its message does not name the variable, NUMBA_NUM_THREADS
             named = f"an environment variable NUMBA_...: {error} Correct or unset it"
             raise ValueError(named) from error
+    if numba.config.DISABLE_JIT:
+        raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
     return numba
 
 
