@@ -293,7 +293,10 @@ def content(figure: "Figure", ending: str = ".svg") -> bytes:
     return file.getvalue()
 
 
-_TYPESET = {" um": " µm", "kg/m^3": "kg/m³", "rho_": "ρ_", " x ": " × "}
+_TYPESET = {
+    " um": " µm", "kg/m^3": "kg/m³", "rho_p": "ρₚ", "rho_t": "ρₜ", "R_t": "Rₜ", "Y_t": "Yₜ",
+    " x ": " × ",
+}  # fmt: skip
 """How titles are written, which come from the terminal's own lines."""
 
 

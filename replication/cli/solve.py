@@ -79,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
         radii = f"{depth / case.radius:.3g} times the radius"
         problem = f"the depth is {radii}: {error}"
         if meant := _meant(text, depth / case.radius):
-            problem = f'did you mean "{meant}"? ({problem})'
+            problem = f'the depth is {radii}: did you mean "{meant}"?'
         raise ValueError(f"{option(name)}: {problem}") from error
     if answer.value is not None:
         named = f"the {_without_underscores(quantity)} for this depth"

@@ -317,8 +317,8 @@ def test_help_lists_only_inputs_that_act(command: str, acts: bool) -> None:
         ),
         (
             ["depth", "--velocty", "450"],
-            "coldspray depth: unrecognized arguments: --velocty 450; did you mean --velocity or "
-            "--stop-velocity? (see coldspray depth --help)",
+            "coldspray depth: unrecognized arguments: --velocty 450; did you mean --velocity? "
+            "(see coldspray depth --help)",
         ),
         (
             ["depth", "--radius", "11 Um"],

@@ -142,6 +142,14 @@ def test_axes_are_labelled_with_units(name: str, figures: dict[str, Figure]) -> 
     )
 
 
+def test_titles_are_typeset(tmp_path: Path) -> None:
+    """In them the symbols of the report have their subscripts, as in the figures of the audit."""
+    file = tmp_path / "x.svg"
+    assert coldspray("history", "--points", "2", "--plot", file)[0] == 0
+    title = "V 500 m/s, R 11 µm, ρₚ 8900, ρₜ 7850 kg/m³, Rₜ 5 × 700 MPa"
+    assert title in shown(file.read_bytes())
+
+
 @pytest.mark.parametrize(("name", "count"), [(name, count) for name, (_, count) in FIGURES.items()])
 def test_every_point_of_ones_own_is_drawn(
     name: str, count: int, drawings: dict[str, bytes]

@@ -66,8 +66,8 @@ def at(line: int | None, message: str) -> str:
         (
             ["depth", "--speed", "3"],
             (
-                "coldspray depth: unrecognized arguments: --speed 3; did you mean --step or "
-                "--case? (see coldspray depth --help)"
+                "coldspray depth: unrecognized arguments: --speed 3; did you mean --case? "
+                "(see coldspray depth --help)"
             ),
         ),
         (

@@ -52,6 +52,8 @@ from replication.report.document import (
 from replication.report.figures import draw_figures
 from replication.report.prose import HTML as PAGE
 from replication.report.prose import TERMINAL, Named, Prose
+from replication.report.tables import main_results
+from replication.report.words import counted_briefly, if_choices_are_rounded
 from replication.text import json_text
 from spreadsheets.styles import CURVES
 
@@ -337,6 +339,21 @@ def test_the_answer_stands_together_and_what_fails_comes_first(
     assert "The 6 main results: reproduced" in words(first)
     for name in ("depth-beta-3", "depth-beta-5", "frank-zook-rha", "frank-zook-stainless"):
         assert record.claim(name).claim.text in words(first)
+
+
+def test_the_page_leads_with_what_could_have_failed(root: ET.Element, record: Record) -> None:
+    (summary,) = (e for e in root.iter(f"{HTML}section") if e.get("id") == "summary")
+    assert words(summary).startswith(f"Summary {counted_briefly(record.counts)} ")
+
+
+def test_a_ratio_of_the_printed_depth_says_so(record: Record) -> None:
+    """The depth above it is 7.66956 um, of which X/R would be 0.697232 and not 7.67/11."""
+    rows = {head: computed for head, _, computed in main_results(record).rows}
+    assert rows["X/R, beta = 5, from the printed 7.67 µm"] == f"{7.67 / 11:.6f}"
+
+
+def test_a_single_number_that_comes_out_is_one(record: Record) -> None:
+    assert ", this comes out: 0.297 as derived from" in if_choices_are_rounded(record)
 
 
 def test_one_color_and_mark_for_each_case_in_every_figure(files: dict[str, bytes]) -> None:

@@ -111,10 +111,8 @@ def test_an_interval_without_a_value_in_its_middle_is_an_answer() -> None:
          "--resistance has no say where the flow stress is solved for: leave it out"),
         ("velocity --depth 3um --rounded --radius 0.0um",
          "--radius is 0.0: it must be a finite number greater than zero"),
-        ("velocity --depth 3", '--depth: did you mean "3 um"? (the depth is 2.73e+05 times the '
-         "radius: velocity is inf for this depth: doubles carry 1e-250 to 1e250 safely (with depth "
-         "3.0, radius 1.1e-05, particle_density 8900.0, target_density 7850.0, resistance "
-         "3500000000.0))"),
+        ("velocity --depth 3", '--depth: the depth is 2.73e+05 times the radius: did you mean "3 '
+         'um"?'),
         ("depth --velocity 400 --depth 3um", "argument QUANTITY: it is solved for what gives a "
          "depth; the depth of a case is printed by `coldspray depth` (see coldspray solve --help)"),
         ("step --depth 3um", "argument QUANTITY: there is no quantity 'step': choose one of "

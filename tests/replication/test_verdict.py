@@ -384,6 +384,9 @@ def test_what_a_reproduced_number_tells(record: Record) -> None:
     assert {name for name, s in told.items() if s is Standing.EVIDENCE} == set(CELLS)
     independent = {name for name, s in told.items() if s is Standing.INDEPENDENT}
     assert len(independent) == record.counts.independent == 19
+    one_sided = {"contact-diameter-bound", "strength-multiple", "strain-rate", "excess"}
+    assert {n for n in independent if "inf" in str(record.claim(n).claim.interval())} == one_sided
+    assert record.counts.bounds == len(one_sided)
     assert independent >= {"depth-beta-3", "depth-beta-5", "a1-mass", "observed-depth-ratio"}
     assert len(told) == record.counts.computed
 
