@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from replication.check.examination import Departure, Examination
 from replication.check.fit import Probe
 from replication.check.roles import Inputs
-from replication.check.six import EXACT, start_of_row
+from replication.check.six import EXACT, VARIANTS, start_of_row
 from replication.check.table import LEAST, Line, SchemeTable, behind, runs
 from replication.check.words import COLUMNS, title
 from replication.user_input import quoted
@@ -112,7 +112,11 @@ def _start_velocity(exam: Examination, k: int, mended: Mended) -> float | None:
 
 def _next_depth(exam: Examination, k: int, mended: Mended) -> float | None:
     """The depth in row k by that of the row before and the velocity; half a step in the first."""
-    before, v = _number_meant(exam, mended, "depth", k - 1), _start_velocity(exam, k, mended)
+    is_euler = exam.fitted.ways.get("depth") is VARIANTS["explicit Euler"]
+    before, v = (
+        _number_meant(exam, mended, "depth", k - 1),
+        _start_velocity(exam, k - is_euler, mended),
+    )
     if v is None or (before is None and k != 1):
         return None
     c = exam.fitted.six.c

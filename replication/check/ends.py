@@ -66,6 +66,9 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
     if wanted is None or not wanted or 1 not in table.rows:
         return
     line, place = table.lines["depth"], table.place("depth", 1)
+    euler = (d for d in exam.differences if d.explanation.startswith("explicit Euler"))
+    if any(place in d.cells for d in euler):
+        return  # of which a first row with the whole step is a part
     is_formula = place in table.evaluator.formulas
     value, step = table.number("depth", 1), inputs.cells.get("step")
     if value is None:
@@ -191,6 +194,8 @@ def judge_stop(exam: Examination, idle: Sequence[Position]) -> None:
         return
     exam.right_depth = rows[-1].depth
     _beyond_radius(exam)
+    if "radius" not in exam.inputs:
+        exam.right_depth = None  # the digits of the rows do not tell it
     below = next((k for k, v in speeds.items() if v < stop), None)
     exam.ends = table.whole and below is not None
     if not table.whole or len(rows) == table.steps:

@@ -55,7 +55,8 @@ class Examination:
     final depth of the report's scheme with the intended inputs. `stop_row` is the row of the stop
     where rows after it are spare or at rest. `following` are cells that are right by what wrong
     cells should hold. `cut_short`: the rows are the first ones
-    of a case of the report, as in an excerpt.
+    of a case of the report, as in an excerpt. `other_inputs` says which inputs are not the
+    report's, of rows without formulas, each in a few words.
     """
 
     table: SchemeTable
@@ -74,6 +75,7 @@ class Examination:
     corrected: tuple[str, float] | None = None
     following: frozenset[Position] = frozenset()
     differences: list[Departure] = field(default_factory=list)
+    other_inputs: list[str] = field(default_factory=list)
 
     def on_own_sheets(self, place: Position) -> bool:
         """Whether a cell is on the sheet of the table, or on one from which it reads.

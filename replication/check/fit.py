@@ -130,7 +130,8 @@ class TableFit:
     formula of a time or a depth adds to the one before, or is a sum by itself. `errors` are the
     relative errors of the six that digits admit, and `time_error` that of the time. Of
     numbers without formulas `bounded` says whether the area stays the same beyond D/2, `digits` is
-    the relative uncertainty of the numbers as typed, `rough` that of the decelerations they show.
+    the relative uncertainty of the numbers as typed, `rough` that of the decelerations they show,
+    and `followed` is the least share of its rows that a column has as its numbers give it.
     """
 
     six: Six
@@ -148,6 +149,7 @@ class TableFit:
     bounded: bool = True
     digits: float = EXACT
     rough: float = EXACT
+    followed: float = 1.0
 
     @property
     def odd(self) -> list[Variant | None]:

@@ -15,6 +15,7 @@ from replication.check.model import blank_inputs, refuse_other_model, zero_of_bl
 from replication.check.responses import CLOSE, Item, unit_power
 from replication.check.roles import Inputs, recognize
 from replication.check.six import (
+    EXACT,
     REPORT,
     VARIANTS,
     end_of_row,
@@ -22,6 +23,7 @@ from replication.check.six import (
     first_written,
     start_of_row,
 )
+from replication.check.solved import tell_solved
 from replication.check.table import Line, SchemeTable, cell_name
 from replication.check.taken import compare_with_report, intend, is_report, take_inputs
 from replication.check.units import Balance, Magnitude, equations, right_units, state_units
@@ -94,6 +96,7 @@ def examine(
         first_rows(exam, inputs, idle)
         odd_cells(exam, inputs)
     judge_stop(exam, idle)
+    tell_solved(exam)
     exam.differences.sort(key=lambda d: d.rank)
     return exam
 
@@ -143,7 +146,9 @@ def _other_ways(exam: Examination) -> None:
         if role == "velocity_final" and role not in table.lines:
             column = start_of_row(table)[0]
         line = table.lines[column]
-        cells = exam.cells(column, 2 if role == "depth" or column == "velocity_initial" else 1)
+        later = role == "depth" or column == "velocity_initial"
+        later = later and not (way is VARIANTS["explicit Euler"] and _is_whole_step(exam))
+        cells = exam.cells(column, 2 if later else 1)
         cells = _usual(line, cells)
         if role == "deceleration":
             cells = _first_wrong(exam) or cells
@@ -154,6 +159,16 @@ def _other_ways(exam: Examination) -> None:
         else:
             text = f"{formula_at(exam, cells[0])} is not what the report has for {title(column)}"
             exam.add("odd formula", cells, None, text)
+
+
+def _is_whole_step(exam: Examination) -> bool:
+    """Whether the first row moves the depth by V times the whole step, as explicit Euler does."""
+    first, six = exam.table.number("depth", 1), exam.fitted.six
+    line = exam.table.lines["depth"]
+    if first is None or not exam.table.whole:
+        return False
+    close = exam.fitted.digits * abs(first) + line.rounding(first) + EXACT * abs(first)
+    return abs(first - six.c * six.V) <= close
 
 
 def _without_drag(exam: Examination) -> None:

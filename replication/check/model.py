@@ -5,12 +5,13 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from replication.check.cells import formula_at, predicted
-from replication.check.delimited import where
+from replication.check.delimited import column_at, where
 from replication.check.examination import AnotherModelError, Examination
 from replication.check.responses import FAMILIES, trace
 from replication.check.roles import Inputs
+from replication.check.rows import MOST
 from replication.check.six import REPORT, VARIANTS, end_of_row, start_of_row
-from replication.check.table import cell_name
+from replication.check.table import SchemeTable, cell_name
 from replication.check.taken import report_inputs
 from replication.check.units import Balance
 from replication.check.words import input_roles, title
@@ -43,6 +44,8 @@ def refuse_other_model(exam: Examination, inputs: Inputs, found: Sequence[Balanc
             )
     _refuse_zero(inputs)
     if fitted.probe is None:
+        if fitted.followed <= MOST:
+            raise AnotherModelError(other_method(exam.table))
         if not (_rows_agree(exam) and _steps_agree(found, inputs)):
             raise AnotherModelError(_sentence(exam, "deceleration"))
         return
@@ -152,6 +155,21 @@ def _known_families(inputs: Inputs) -> tuple[int, int]:
         known += named or is_report
         report += is_report
     return known, report
+
+
+def other_method(table: SchemeTable) -> str:
+    """Say that the rows of a table of numbers do not follow the report's scheme."""
+    text = table.evaluator.book.is_text
+    roles = ("time", "depth", "velocity_initial", "velocity_final")
+    shown = [
+        column_at(table.evaluator.book, table.lines[role].number) if text else table.area(role)
+        for role in roles if role in table.lines
+    ]  # fmt: skip
+    here = "" if text else f" in {table.sheet!r}"
+    return (
+        f"columns of depth and velocity are found{here} ({', '.join(shown)}), but most rows do not "
+        "follow the report's scheme: they come from another method or model"
+    )
 
 
 _SAYS = {

@@ -12,16 +12,21 @@ from replication.check.six import (
     REPORT,
     VARIANTS,
     Six,
+    Variant,
     end_of_row,
     impact_velocity,
     start_of_row,
 )
-from replication.check.table import SchemeTable
+from replication.check.table import SchemeTable, with_only_velocity_at_start
 
 _ENOUGH = 20
 """So many digits in all rows together tell the three numbers of a force."""
 _FAR = 3.0
 """A row whose deviation is so many times what its digits admit is not explained."""
+MOST = 0.5
+"""A larger share of rows is most of them."""
+_FEW = 6
+"""Of fewer rows it cannot be said that most follow another method."""
 _FIRST_ROWS = 6
 """So many rows are tried as the only ones before the depth R."""
 _SMALL = 1e-6
@@ -66,7 +71,7 @@ def fit_table(table: SchemeTable) -> tuple[SchemeTable, TableFit]:
     """
     fitted = fit_formulas(table)
     if fitted is None:
-        return table, fit_numbers(table)
+        return _fit_numbers_either_way(table)
     for trial in _with_rarer_formulas(table) if fitted.odd else ():
         again = fit_formulas(trial)
         if again is not None and again.probe is not None and not again.odd:
@@ -85,11 +90,39 @@ def _with_rarer_formulas(table: SchemeTable) -> Iterator[SchemeTable]:
                 yield replace(table, lines=lines, helpers=helpers, places={})
 
 
-def fit_numbers(table: SchemeTable) -> TableFit:
-    """Fit the rows of a table without formulas; of few rows with few digits only the steps."""
+def _fit_numbers_either_way(table: SchemeTable) -> tuple[SchemeTable, TableFit]:
+    """Fit a table without formulas, whose only velocity may be that at the start of its rows.
+
+    If the depth grows by the velocity in the row before, this is the one at the end of that row in
+    the report's scheme. In explicit Euler it is the one at its start: only the force tells.
+    """
+    plain = fit_numbers(table, only_report=True)
+    if plain.followed == 1:
+        return table, plain
+    trial = with_only_velocity_at_start(table)
+    if trial is None:
+        return table, fit_numbers(table)
+    way = VARIANTS["explicit Euler"]
+    euler = fit_numbers(trial, way, only_report=True)  # most are right in all rows: fits take time
+    if euler.followed == 1:
+        return trial, euler
+    fitted, euler = fit_numbers(table), fit_numbers(trial, way)
+    return (trial, euler) if euler.followed > fitted.followed else (table, fitted)
+
+
+def fit_numbers(
+    table: SchemeTable, growth: Variant = REPORT["depth"], only_report: bool = False
+) -> TableFit:
+    """Fit the rows of a table without formulas; of few rows with few digits only the steps.
+
+    `growth` is the way in which the depth grows: the report's, or explicit Euler. `only_report`
+    tries no other force than the report's.
+    """
     end, shown = end_of_row(table), "deceleration" in table.lines
-    c, c_error = _common_ratio(list(_growths(table)))
-    e, e_error = _common_ratio(list(_falls_over_brake(table))) if shown else (c, c_error)
+    growths = list(_growths(table, growth is VARIANTS["explicit Euler"]))
+    c, c_error = _common_ratio(growths)
+    falls = list(_falls_over_brake(table)) if shown else []
+    e, e_error = _common_ratio(falls) if shown else (c, c_error)
     rows = list(_forces(table))
     sign = -1.0 if shown and rows and median(row.a for row in rows) < 0 else 1.0
     divisor = sign if shown else e
@@ -97,20 +130,40 @@ def fit_numbers(table: SchemeTable) -> TableFit:
     rough = median(row.error for row in rows) if rows else EXACT
     force = ForceOfRows(math.nan, math.nan, math.nan)
     if rows and math.isfinite(e) and -len(rows) * math.log10(rough) > _ENOUGH:
-        force = _best_force(rows, abs(e))
+        force = _fitted_force(rows) if only_report else _best_force(rows, abs(e))
     time, time_error = _common_ratio(list(_time_steps(table)))
     V = impact_velocity(table)
     speed = table.lines["velocity_initial" if "velocity_initial" in table.lines else end[0]]
     V_error = speed.rounding(V) / abs(V) if V else math.inf
     six = Six(force.G, force.H, force.D, c, sign * e, V)
     ways = {role: REPORT[role] for role in ("depth", "deceleration", "velocity_final")}
+    ways["depth"] = growth
     if force.centered:
         ways["deceleration"] = VARIANTS["centered"]
+    shares = _share_near(growths, c), _share_near(falls, e), _share_explained(rows, force, e)
     return TableFit(
         six, time, sign, ways, "deceleration" if shown else end[0],
         bounded=force.bounded, centered=force.centered, digits=_fewest_digits(table), rough=rough,
         errors=Six(*force.errors, c_error, e_error, V_error), time_error=time_error,
+        followed=min(shares),
     )  # fmt: skip
+
+
+def _share_near(ratios: Sequence[tuple[float, float]], middle: float) -> float:
+    """The share of ratios that are a constant as far as their errors tell; 1 if there are few."""
+    if len(ratios) < _FEW or not math.isfinite(middle):
+        return 1.0
+    close = ((abs(ratio - middle), _FAR * error + EXACT * abs(middle)) for ratio, error in ratios)
+    return sum(off <= most for off, most in close) / len(ratios)
+
+
+def _share_explained(rows: Sequence[ForceRow], force: ForceOfRows, e: float) -> float:
+    """The share of rows that a force explains; 1 if there are few, or if they tell no force."""
+    if len(rows) < _FEW or not all(map(math.isfinite, force[:3])):
+        return 1.0
+    if force.centered:
+        rows = [row._replace(u=row.u - abs(e) / 2 * force.at(row.x, row.u)) for row in rows]
+    return _explained(rows, force) / len(rows)
 
 
 # ---- the rows
@@ -131,12 +184,15 @@ def _time_steps(table: SchemeTable) -> Iterator[tuple[float, float]]:
             yield now - before, line.rounding(now) + line.rounding(before)
 
 
-def _growths(table: SchemeTable) -> Iterator[tuple[float, float]]:
-    """By how much the depth grows over the velocity, row by row, and the error by the digits."""
+def _growths(table: SchemeTable, by_row_before: bool) -> Iterator[tuple[float, float]]:
+    """By how much the depth grows over the velocity, row by row, and the error by the digits.
+
+    It grows by the velocity at the start of the row, or of the row before, as in explicit Euler.
+    """
     depth, speed = table.lines["depth"], table.lines[start_of_row(table)[0]]
     for k in sorted(table.rows):
         x, before = table.number("depth", k), table.number("depth", k - 1)
-        u, _ = _speeds(table, k)
+        u, _ = _speeds(table, k - by_row_before)
         if x is not None and before is not None and u and k > 1:
             error = depth.rounding(x) + depth.rounding(before)
             error += abs(x - before) * speed.rounding(u) / abs(u)

@@ -12,6 +12,7 @@ from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, Departure, Examination
 from replication.check.shown import NO_LIMIT, anchor, drawn, fitted, safe, whereabouts, wrapped
 from replication.check.table import Line, SchemeTable, cell_name
+from replication.check.taken import report_case, six_in_si
 from replication.check.words import COLUMNS, INPUTS, is_unit, unit_name
 from replication.check.workbook import Checked
 from replication.text import columns, quantity, with_unit
@@ -81,7 +82,7 @@ def _check_verdict(check: Checked) -> str:
         if left:
             numbers += f"; {len(left):,} of its formulas not computed"
         if check.evaluator.book.is_text:
-            return f"Clean{extent}: the report's sheet{inputs}, row by row, to its digits."
+            return f"Clean{extent}: {_rows_verdict(exams)}."
         return f"Clean{extent}: the report's sheet{inputs}, cell by cell{numbers}."
     if not causes:
         return (
@@ -99,6 +100,20 @@ def _check_verdict(check: Checked) -> str:
         tables = "the table ends" if len(exams) == 1 else "every table ends"
         return f"{sentence}; {tables} at the right depth all the same."
     return f"{sentence}."
+
+
+def _rows_verdict(exams: Sequence[Examination]) -> str:
+    """Say of right rows that a program wrote whether their inputs are the report's, too."""
+    others = list(dict.fromkeys(text for exam in exams for text in exam.other_inputs))
+    if others:
+        listed = "; ".join(others)
+        return f"the report's scheme, row by row, to its digits, with other inputs: {listed}"
+    if all(report_case(six_in_si(exam), exam.fitted) for exam in exams):
+        return "the report's sheet, row by row, to its digits"
+    return (
+        "the report's scheme, row by row, to its digits, which do not tell whether all inputs are "
+        "the report's"
+    )
 
 
 def _wrong_depth(exam: Examination) -> tuple[float, float] | None:

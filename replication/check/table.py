@@ -895,3 +895,40 @@ def _step_of(roles: Mapping[str, Line]) -> float:
         if speed.values.get(j)
     ]
     return abs(median(steps)) if steps else 0.0
+
+
+def with_only_velocity_at_start(table: SchemeTable) -> SchemeTable | None:
+    """The table with its only velocity taken for that at the start of the rows.
+
+    Textbooks put depth, velocity and deceleration of one moment into one row. None if the table
+    shows the velocities at both ends of its rows, or at their start.
+    """
+    if "velocity_initial" in table.lines:
+        return None
+    roles = {"depth": table.lines["depth"], "velocity_initial": table.lines["velocity_final"]}
+    taken = set(roles.values())
+    beside = [o for o in (*table.lines.values(), *table.helpers) if o not in taken]
+    c = _step_of({name: table.lines[name] for name in ("depth", "velocity_final")})
+    return _completed(table.evaluator, roles, beside, c) if c else None
+
+
+def moving_pair(evaluator: Evaluator) -> tuple[Line, Line] | None:
+    """A depth and a velocity that belong to one motion, however it was computed; None if none.
+
+    In steps of a constant time the depth grows by about the mean of two velocities times the step.
+    """
+    for known in lines(evaluator).values():
+        for depth in known[:_MOST_LINES]:
+            for speed in known[:_MOST_LINES]:
+                if not (depth.grows and speed.falls and speed.positive) or _is_constant(speed):
+                    continue
+                terms = [
+                    (depth.values[now] - depth.values[before],
+                     (speed.values[now] + speed.values[before]) / 2, 0.0)
+                    for before, now in _pairs(depth)
+                    if before in speed.values and now in speed.values
+                ]  # fmt: skip
+                c, share = _share(terms, _LOOSE)
+                if c > 0 and share > 0.5:
+                    return depth, speed
+    return None

@@ -17,9 +17,9 @@ _NO_BETA = 1e3
 """No beta is so large; a flow stress in Pa is larger."""
 _DIGITS = 3
 """A mass is typed with so many digits at least."""
-_SAME = 1e-6
+SAME = 1e-6
 """Relative difference up to which a number that was solved is one that was typed."""
-_FEW_DIGITS = 0.05
+FEW_DIGITS = 0.05
 """Rows whose digits admit larger errors do not tell by themselves which case they belong to."""
 _ALIKE = 3
 """So many other inputs must be the report's where one is called a thousand times too large."""
@@ -61,8 +61,8 @@ def report_case(six: Six | None, fitted: TableFit) -> str | None:
     """
     if six is None:
         return None
-    close = max(_SAME, *fitted.errors)
-    if close > _FEW_DIGITS:
+    close = max(SAME, *fitted.errors)
+    if close > FEW_DIGITS:
         return None
     for beta, resistance in zip((5, 3), report_inputs()["resistance"], strict=True):
         wanted = report_six(resistance, six.c)._replace(e=six.e)
@@ -81,10 +81,12 @@ def take_inputs(exam: Examination, inputs: Inputs) -> None:
         how = "formulas" if source.cell is None else inputs.how.get(role, "response")
         value = _in_si(source.value, inputs.powers.get(source.item, 0.0))
         exam.inputs[role] = Input(role, value, source.cell, how, label, unit, source.value)
-    six = six_in_si(exam)
-    for role, value in (("step", six.c), ("velocity", six.V), ("radius", six.D / 2)):
+    six, errors = six_in_si(exam), exam.fitted.errors
+    for role, value, error in (
+        ("step", six.c, errors.c), ("velocity", six.V, errors.V), ("radius", six.D / 2, errors.D),
+    ):  # fmt: skip
         known = role in exam.inputs or (role == "radius" and "diameter" in exam.inputs)
-        if not known and 0 < value < math.inf:
+        if not known and 0 < value < math.inf and error <= FEW_DIGITS:
             exam.inputs[role] = Input(role, value, None, "rows")
     if "diameter" in exam.inputs and "radius" not in exam.inputs:
         half = exam.inputs["diameter"].si / 2
@@ -128,7 +130,7 @@ def _as_in_report(exam: Examination, six: Six) -> None:
     report, inputs = report_inputs(), exam.inputs
     if (case := report_case(six, exam.fitted)) is None:
         return
-    close = max(_SAME, exam.fitted.errors.c)
+    close = max(SAME, exam.fitted.errors.c)
     resistance = report["resistance"][0 if case == "beta-5" else 1]
     values = {role: report[role][0] for role in (
         "velocity", "radius", "particle_density", "target_density")}  # fmt: skip
@@ -163,9 +165,9 @@ def _solve_rest(exam: Examination, six: Six) -> None:
         density, target = (report_inputs()[role][0] for role in (
             "particle_density", "target_density"))  # fmt: skip
         errors = exam.fitted.errors
-        close = max(_SAME, errors.G + 3 * errors.D)
+        close = max(SAME, errors.G + 3 * errors.D)
         own = 2 * six.G * volume * density / math.pi
-        if close > _FEW_DIGITS or not math.isclose(own, target, rel_tol=close):
+        if close > FEW_DIGITS or not math.isclose(own, target, rel_tol=close):
             return
         M = volume * density
     solved = {
@@ -207,6 +209,7 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
             exam.corrected = (role, entry.si / 10.0**off)
             continue
         shown = " or ".join(with_si_unit(value, role) for value in report[role])
+        exam.other_inputs.append(f"{title(role)} {with_si_unit(entry.si, role)}")
         text = f"{title(role)} is {with_si_unit(entry.si, role)}, in the report {shown}"
         exam.add("other input", [entry.place], None, text)
 

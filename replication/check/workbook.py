@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from reference.units import same_dimension
-from replication.check.delimited import read_any
+from replication.check.delimited import column_at, read_any
 from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, AnotherModelError, Departure, Examination
 from replication.check.idle import idle_inputs, numbers_apart, typed_beside, unused_formulas
@@ -16,7 +16,15 @@ from replication.check.repair import Slipped, Still, moving, slipped, still_cell
 from replication.check.results import PrintedCell, judge_results, printed_cells
 from replication.check.rows import fit_table
 from replication.check.stale import stale
-from replication.check.table import LEAST, Line, SchemeTable, cell_name, runs, tables
+from replication.check.table import (
+    LEAST,
+    Line,
+    SchemeTable,
+    cell_name,
+    moving_pair,
+    runs,
+    tables,
+)
 from replication.check.words import (
     COLUMNS,
     INPUTS,
@@ -349,6 +357,13 @@ def _nothing(evaluator: Evaluator) -> str:
     """Return the message that there is no table, with the likely reason and what to do."""
     nothing, values = "no table of depth and velocity is found", evaluator.values
     if evaluator.book.is_text:
+        if pair := moving_pair(evaluator):
+            depth, speed = (column_at(evaluator.book, line.number) for line in pair)
+            return (
+                f"{depth} is found to be a depth and {speed} its velocity, but the rows follow "
+                "another method than the report's sheet, in which the depth grows from row to row "
+                "by the velocity times the step"
+            )
         such = "heads such as time [ns], velocity [m/s], depth [um]"
         return f"{nothing}: give columns of these in steps of a constant time, with {such}"
     texts = [value for value in values.values() if type(value) is str]

@@ -3,6 +3,7 @@
 import math
 import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -173,6 +174,128 @@ def test_another_scheme_is_named_with_its_first_row(
     first = check_record(check_workbook(path))["first"]
     assert (first["kind"], first["where"].split(",")[0]) == ("other scheme", f"line {line}")
     assert words in first["explanation"]
+
+
+TEXTBOOK = ("time", "depth", "velocity_initial", "deceleration")
+SLOW = Impact(
+    velocity=80, radius=3e-5, particle_density=2700, target_density=7850, beta=2,
+    flow_stress=5e8, step=1e-9,
+)  # fmt: skip
+
+
+def brake(impact: Impact, x: float, v: float) -> float:
+    """The deceleration by the report's equation."""
+    R = impact.radius
+    M = 4 / 3 * math.pi * R**3 * impact.particle_density
+    area = math.pi * (R * R if x >= R else 2 * R * x - x * x)
+    return (impact.target_density * v * v / 2 + impact.beta * impact.flow_stress) * area / M
+
+
+def explicit_euler(impact: Impact) -> list[Numbers]:
+    """Depth, velocity and deceleration of one moment in one row; both move on by the old ones."""
+    rows: list[Numbers] = []
+    t, x, v = 0.0, 0.0, impact.velocity
+    while v > 0:
+        a = brake(impact, x, v)
+        rows.append([t * 1e9, x * 1e6, v, a])
+        t, x, v = t + impact.step, x + v * impact.step, v - a * impact.step
+    return rows
+
+
+def runge_kutta(impact: Impact, within: int = 1) -> list[Numbers]:
+    """The classical method of fourth order, with some steps `within` each row."""
+    rows: list[Numbers] = []
+    x, v, h, k = 0.0, impact.velocity, impact.step / within, 0
+    while v > 0:
+        if k % within == 0:
+            rows.append([k * h * 1e9, x * 1e6, v])
+        u1, a1 = v, brake(impact, x, v)
+        u2, a2 = v - h / 2 * a1, brake(impact, x + h / 2 * u1, v - h / 2 * a1)
+        u3, a3 = v - h / 2 * a2, brake(impact, x + h / 2 * u2, v - h / 2 * a2)
+        u4, a4 = v - h * a3, brake(impact, x + h * u3, v - h * a3)
+        x += h / 6 * (u1 + 2 * u2 + 2 * u3 + u4)
+        v -= h / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+        k += 1
+    return rows
+
+
+INPUTS = pytest.mark.parametrize(
+    "impact", [BETA_5, BETA_3, DEEP, SLOW], ids=["beta-5", "beta-3", "deep", "slow"]
+)
+
+
+@INPUTS
+@pytest.mark.parametrize("form", [".12g", ".6g"])
+@pytest.mark.parametrize(("names", "above"), [
+    (TEXTBOOK, ""), (TEXTBOOK[:3], ""), (TEXTBOOK[:3], "radius [um],{}\n"),
+], ids=["braked", "bare", "the radius above"])  # fmt: skip
+def test_explicit_euler_is_named_once_and_no_number_is_accused(
+    impact: Impact, form: str, names: Sequence[str], above: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "mine.csv"
+    rows = [row[: len(names)] for row in explicit_euler(impact)]
+    head = above.format(impact.radius * 1e6)
+    path.write_text(csv(rows, names, form, above=head))
+    record = check_record(check_workbook(path))
+    faults = [d for d in record["differences"]
+              if d["kind"] not in ("not calculated", "other input")]  # fmt: skip
+    line = 4 if above else 3
+    assert [(d["kind"], d["where"]) for d in faults] == [
+        ("other scheme", f"line {line}, column 'depth [um]'")
+    ]
+    assert faults[0]["explanation"].startswith("explicit Euler")
+    # Six digits tell the radius to three percent or better.
+    radius = record["taken"][0]["inputs"]["radius"]["value"]
+    assert radius == pytest.approx(impact.radius, rel=0.03 if form == ".6g" else 1e-5)
+
+
+@INPUTS
+@pytest.mark.parametrize("form", ["", ".6g"])
+@pytest.mark.parametrize("within", [1, 8], ids=["Runge-Kutta", "as good as exact"])
+def test_rows_of_a_better_method_are_found_and_not_judged(
+    impact: Impact, form: str, within: int, tmp_path: Path
+) -> None:
+    names = ("time", "depth", "velocity_initial")
+    with pytest.raises(ValueError, match="the rows follow another method than the report's sheet"):
+        told(csv(runge_kutta(impact, within), names, form), tmp_path)
+
+
+@pytest.mark.parametrize(("power", "form"), [(1, ".12g"), (3, ".6g")])
+def test_rows_that_mostly_follow_no_such_force_are_not_judged(
+    power: int, form: str, tmp_path: Path
+) -> None:
+    rows: list[Numbers] = []
+    x, v = 0.0, 500.0
+    for k in range(30):
+        rows.append([k * 0.2, x * 1e6, v])
+        x += v * 2e-10
+        v -= 2e-10 * 4e10 * v * (v / 500) ** (power - 1) * (x / 5e-6) ** 2
+    with pytest.raises(ValueError, match="most rows do not follow the report's scheme"):
+        told(csv(rows, ("time", "depth", "velocity_initial"), form), tmp_path)
+
+
+@pytest.mark.parametrize("form", ["", ".8g"])
+@pytest.mark.parametrize(("changes", "said"), [
+    ({}, []),
+    ({"step": 5e-10}, []),
+    ({"velocity": 450.0}, ["the impact velocity 450 m/s"]),
+    ({"radius": 2e-5}, ["the radius 2e-05 m"]),
+    ({"step": 3e-10}, ["the time step 3e-10 s"]),
+    ({"velocity": 450.0, "beta": 4.0, "target_density": 7900.0},
+     ["the impact velocity 450 m/s", "the target density 0.8876", "the target resistance 3146",
+      "the rows tell only the ratios of both densities and the resistance"]),
+])  # fmt: skip
+def test_other_inputs_that_right_rows_show_are_said(
+    changes: dict[str, float], said: list[str], form: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "mine.csv"
+    path.write_text(csv(sheet(replace(BETA_5, **changes)), form=form))
+    record = check_record(check_workbook(path))
+    kinds = {"other input": 1 + (len(said) > 1)} if said else {}
+    scheme = "the report's scheme" if said else "the report's sheet"
+    assert (record["clean"], record["summary"]) == (True, kinds)
+    assert record["verdict"].startswith(f"Clean: {scheme}, row by row, to its digits")
+    assert [text for text in said if text not in record["verdict"]] == []
 
 
 def test_the_program_of_these_tests_is_right_without_changes(tmp_path: Path) -> None:
