@@ -269,7 +269,7 @@ def check_plot(path: Path, *inputs: Path | None) -> None:
     if path.suffix.lower() not in ENDINGS:
         raise ValueError(f"{path}: a figure's name ends in {', '.join(ENDINGS[:-1])} or .pdf")
     target = check_target(path)
-    if any(other is not None and other.resolve() == target for other in inputs):
+    if any(source is not None and source.resolve() == target for source in inputs):
         raise ValueError(f"{path} is also read: write the figure to another file")
 
 

@@ -37,7 +37,7 @@ def formula_at(exam: Examination, place: Position) -> str:
 def feeding(table: SchemeTable) -> list[Line]:
     """The lines beside the table that its columns read, in order of calculation."""
     read: set[Line] = set()
-    found: list[Line] = []
+    feeders: list[Line] = []
     for role, line in table.lines.items():
         if role == "time" or line.usual is None:
             continue
@@ -52,10 +52,10 @@ def feeding(table: SchemeTable) -> list[Line]:
         for helper in table.helpers:
             if helper not in read and any(helper.place(i) in cells for i in helper.values):
                 read.add(helper)
-                found.append(helper)
+                feeders.append(helper)
     order = table.evaluator.order
     return sorted(
-        found, key=lambda o: max((order.get(o.place(i), -1) for i in o.values), default=-1)
+        feeders, key=lambda o: max((order.get(o.place(i), -1) for i in o.values), default=-1)
     )
 
 
@@ -180,7 +180,7 @@ def _is_pasted(exam: Examination, role: str, line: Line) -> bool:
         return False
     others = (o for r, o in exam.table.lines.items() if r not in (role, "time"))
     matters = exam.fitted.probe is not None or role in ("deceleration", "velocity_initial")
-    return matters and any(other.computed for other in others)
+    return matters and any(o.computed for o in others)
 
 
 def _is_blank(evaluator: Evaluator, place: Position) -> bool:
@@ -347,8 +347,8 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
             odd[place] = verdict
     groups = runs({p: (v[0], v[1]) for p, v in odd.items()}, table.across)
     for group in groups:
-        kind, text, expected, found = odd[group[0]]
-        exam.add(str(kind), group, expected, str(text), found)  # type: ignore[arg-type]
+        kind, text, expected, content = odd[group[0]]
+        exam.add(str(kind), group, expected, str(text), content)  # type: ignore[arg-type]
 
 
 def _is_wrong(exam: Examination, line: Line) -> bool:

@@ -121,13 +121,13 @@ class Examination:
 
     def add(
         self, kind: str, cells: Sequence[Position], expected: Value | None, text: str,
-        found: Value | None = None,
+        content: Value | None = None,
     ) -> None:  # fmt: skip
         """Add a difference; the first of its cells is the one to look at.
 
-        If `found` is not given, it is the value of that cell.
+        If `content` is not given, it is the value of that cell.
         """
-        value = self.table.evaluator.values.get(cells[0]) if found is None else found
+        value = self.table.evaluator.values.get(cells[0]) if content is None else content
         value = str(value) if isinstance(value, Error) else value
         entry = Departure(kind, tuple(cells), expected, value, text, self.rank(cells[0]))
         self.differences.append(entry)

@@ -396,10 +396,10 @@ def _fall(probe: Probe, place: Position, start: State, sign: float) -> tuple[flo
 
 def _quadratic(values: Sequence[float]) -> tuple[float, float, float]:
     """The coefficients of 1, s and s² through values at s = 1, 2 and 3."""
-    one, two, three = values
-    square = (one - 2 * two + three) / 2
-    slope = two - one - 3 * square
-    return one - slope - square, slope, square
+    first, second, third = values
+    square = (first - 2 * second + third) / 2
+    slope = second - first - 3 * square
+    return first - slope - square, slope, square
 
 
 def _grid_of_terms(force: Force, x: float, u: float) -> list[list[float]]:
@@ -446,7 +446,7 @@ def _numbers_of(
 
 def _diameter_of(force: Force, x: float, u: float) -> float | None:
     """D of a force that is a contact area D x - x² times anything that depends on the velocity."""
-    found = []
+    diameters = []
     for speed in (u, 2.3 * u):
         free, slope, square = _quadratic([force(s * x, speed) for s in (1, 2, 3)])
         largest = max(abs(slope), abs(square))
@@ -455,8 +455,8 @@ def _diameter_of(force: Force, x: float, u: float) -> float | None:
         test = 2.6 * slope + 2.6**2 * square
         if not math.isclose(force(2.6 * x, speed), test, rel_tol=_ROUGH):
             return None
-        found.append(-slope / square * x)
-    return found[0] if found[0] > 0 and math.isclose(*found, rel_tol=_ROUGH) else None
+        diameters.append(-slope / square * x)
+    return diameters[0] if diameters[0] > 0 and math.isclose(*diameters, rel_tol=_ROUGH) else None
 
 
 def centered_numbers(

@@ -165,10 +165,10 @@ def _typed_into(
 
 def influences(table: SchemeTable, fitted: TableFit) -> list[Influence]:
     """Everything that the table rests on, with its exponents."""
-    values, found = table.evaluator.values, trace(table, fitted)
-    numbers = {p: v for p in found.cells if type(v := values[p]) is float}
+    values, traced = table.evaluator.values, trace(table, fitted)
+    numbers = {p: v for p in traced.cells if type(v := values[p]) is float}
     if fitted.probe is None:
-        return [Influence(p, None, value, {}, found.cells[p]) for p, value in numbers.items()]
+        return [Influence(p, None, value, {}, traced.cells[p]) for p, value in numbers.items()]
     base = _all_numbers(table, fitted, {}, {})
 
     def exponents(cells: Cells, literals: Literals) -> dict[str, float]:
@@ -178,14 +178,14 @@ def influences(table: SchemeTable, fitted: TableFit) -> list[Influence]:
         return {n: math.log(ratio) / math.log(_NUDGE) for n, ratio in good.items()}
 
     result = [
-        Influence(p, None, value, exponents({p: value * _NUDGE}, {}), found.cells[p])
+        Influence(p, None, value, exponents({p: value * _NUDGE}, {}), traced.cells[p])
         for p, value in numbers.items()
         if math.isfinite(value * _NUDGE) and value
     ]
     result += [Influence(p, None, 0.0, {}) for p, value in numbers.items() if not value]
 
     def typed(plain: bool) -> list[Influence]:
-        some = ((k, *entry) for k, entry in found.numbers.items() if is_plain(entry[0]) == plain)
+        some = ((k, *entry) for k, entry in traced.numbers.items() if is_plain(entry[0]) == plain)
         return [Influence(p, k, v, exponents({}, {k: v * _NUDGE})) for k, v, p in some if v]
 
     result += typed(plain=False)

@@ -43,7 +43,7 @@ def check_record(check: Checked) -> dict[str, Any]:
                 "id": number.claim.id, "title": number.claim.title,
                 "place": str(number.claim.place), "printed": number.claim.shown,
                 "unit": number.claim.unit, "interval": str(number.claim.interval()),
-                "cell": cell_name(number.place, True), "found": number.found, "met": number.met,
+                "cell": cell_name(number.place, True), "found": number.value, "met": number.met,
                 **({"where": where(book, number.place)} if book.is_text else {}),
             }
             for number in check.numbers
@@ -188,17 +188,17 @@ def fault_contents(difference: Record) -> str:
     'is blank, should hold 500.0'
     """
     values = difference["expected"], difference["found"]
-    expected, found = ("blank" if value is None else safe(value, 120) for value in values)
+    expected, content = ("blank" if value is None else safe(value, 120) for value in values)
     if difference["kind"] == "printed number":  # in the report's unit, not the cell's
-        return f"holds {found}, the report prints {expected}"
+        return f"holds {content}, the report prints {expected}"
     if difference["kind"] == "unit" and isinstance(values[0], str):
-        return f"stated in {found}, is in {expected}" if is_unit(found) else f"is in {expected}"
-    if values[0] is None or expected == found:
-        return "" if values[1] is None else f"holds {found}"
+        return f"stated in {content}, is in {expected}" if is_unit(content) else f"is in {expected}"
+    if values[0] is None or expected == content:
+        return "" if values[1] is None else f"holds {content}"
     if values[1] is None:
         return f"is blank, should hold {expected}"
-    reads = found.startswith("=") and isinstance(values[0], str) and expected[:1] != "="
-    return f"holds {found}, should {'read' if reads else 'hold'} {expected}"
+    reads = content.startswith("=") and isinstance(values[0], str) and expected[:1] != "="
+    return f"holds {content}, should {'read' if reads else 'hold'} {expected}"
 
 
 def check_text(record: Record, width: int = NO_LIMIT) -> str:

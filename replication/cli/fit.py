@@ -78,8 +78,8 @@ def run(options: argparse.Namespace) -> int:
         fitted = fit(case, measurements, quantity)
     warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))
     inputs = _common_inputs(measurements)
-    if other := OTHER_FACTOR.get(quantity):
-        inputs[other] = fitted.resistance / fitted.value
+    if divisor := OTHER_FACTOR.get(quantity):
+        inputs[divisor] = fitted.resistance / fitted.value
     rows = _fitted_rows(fitted, measurements)
     write_picture(options, lambda: _fit_figure(options.file, fitted, measurements, inputs, points))
     record = {

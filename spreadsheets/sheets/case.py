@@ -495,8 +495,8 @@ def _renamed(sheet: SheetPlan, case: CaseSheet) -> None:
     s = case.suffix
     sheet.row += 1
     sheet.block("Is β the one of the sheet’s name?")
-    other = f'=IF({_beta(case)}="{case.label}",0,1)'
-    sheet.line(f"other_beta{s}", "", "β is another one", other, shown=YES_OR_NO)
+    is_another = f'=IF({_beta(case)}="{case.label}",0,1)'
+    sheet.line(f"other_beta{s}", "", "β is another one", is_another, shown=YES_OR_NO)
     # That its time step is not longer matters more.
     renamed = f"=IF(longer{s}=1,other_beta{s},0)" if case.coarse else f"=other_beta{s}"
     sheet.state(f"renamed{s}", "I2 says so", renamed, messages.KEEPS_NAME)
