@@ -400,11 +400,11 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> list[
 _CLOSE = Fraction(1, 10**9)
 """The largest relative difference at which a double agrees with an exact number, such as 2/3."""
 
-Values = Mapping[str, Fraction]
+Replacements = Mapping[str, Fraction]
 """Values of some entries (SI) in place of the printed ones."""
 
 
-def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> bool:
+def agrees(ledger: Ledger, claim: Claim, changed: Replacements, reading: str = "") -> bool:
     """Return whether a claim agrees with its computation, in doubles, some entries changed."""
     if claim.restates:
         return is_consistent(ledger, claim)
@@ -419,7 +419,7 @@ def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> 
     return target.contains(value)
 
 
-def disagreeing(ledger: Ledger, names: Iterable[str], changed: Values) -> set[str]:
+def disagreeing(ledger: Ledger, names: Iterable[str], changed: Replacements) -> set[str]:
     """Return which of the claims disagree with their computations, some entries changed."""
     claims = (ledger.claims[name] for name in names)
     return {c.id for c in claims if c.computation is not None and not agrees(ledger, c, changed)}

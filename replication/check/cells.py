@@ -362,7 +362,7 @@ def _is_wrong(exam: Examination, line: Line) -> bool:
     )
 
 
-Verdict = tuple[str, str, object, object]
+Oddity = tuple[str, str, object, object]
 """What is wrong with a cell: its kind, a text, what is expected and what is there."""
 
 
@@ -414,7 +414,7 @@ def _odd_cell(exam: Examination, line: Line, role: str | None, k: int, place: Po
 def _verdict_on_cell(
     exam: Examination, inputs: Inputs, line: Line, role: str | None, k: int, place: Position,
     probe: bool,
-) -> Verdict | None:  # fmt: skip
+) -> Oddity | None:  # fmt: skip
     """What is wrong with a cell that has not its column's formula; None if nothing."""
     odd = _odd_cell(exam, line, role, k, place)
     shape = exam.table.evaluator.formulas.get(place)
@@ -436,12 +436,12 @@ def own(shape: Shape, place: Position) -> str:
     return formula_text(shape.key, place[1], place[2])[:200]
 
 
-def _other_number(odd: _Cell, formula: str) -> Verdict:
+def _other_number(odd: _Cell, formula: str) -> Oddity:
     text = f"{formula} does not give what the rest of the table does"
     return "odd formula", text, odd.expected, odd.value
 
 
-def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool, bool]) -> Verdict | None:
+def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool, bool]) -> Oddity | None:
     """The verdict on a formula that responds to the row, or to the inputs, as its column or not.
 
     A number in the formula of the others, where this one reads a cell, is theirs.
@@ -492,7 +492,7 @@ def as_typed(value: Scalar) -> Scalar:
     return quoted(value) if isinstance(value, str) else value
 
 
-def _verdict_on_typed(exam: Examination, odd: _Cell) -> Verdict | None:
+def _verdict_on_typed(exam: Examination, odd: _Cell) -> Oddity | None:
     """The verdict on a cell without a formula."""
     value, line = odd.value, odd.line
     if value is None:
@@ -516,7 +516,7 @@ def _verdict_on_typed(exam: Examination, odd: _Cell) -> Verdict | None:
     return "typed number", text, odd.expected, value
 
 
-def _without_number(odd: _Cell) -> Verdict | None:
+def _without_number(odd: _Cell) -> Oddity | None:
     """The verdict on a formula that gives no number."""
     value = odd.value
     if value == "#N/A" and odd.role is not None and _goes_on(odd.line, odd.place):

@@ -18,7 +18,7 @@ from replication.check.layout import Layout
 from replication.check.references import TextReference, words
 from spreadsheets.foreign import Book, Position, StoredCell, Value, read, without_zeros
 
-KINDS = ("setting", "added", "removed", "moved", "name", "formula", "value")
+DIFFERENCE_KINDS = ("setting", "added", "removed", "moved", "name", "formula", "value")
 """The kinds of differences that `diff` reports."""
 
 LAST = "only the last digits of the values differ"

@@ -14,7 +14,7 @@ from replication.check.words import COLUMNS
 from spreadsheets.foreign import Position, Value
 from spreadsheets.scalars import Error
 
-KINDS = (
+DEPARTURE_KINDS = (
     "stale value", "typed number", "odd formula", "typed constant", "other scheme", "other input",
     "unit", "printed number", "not calculated",
 )  # fmt: skip

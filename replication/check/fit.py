@@ -28,7 +28,7 @@ from replication.check.table import SchemeTable
 from spreadsheets.foreign import Position
 from spreadsheets.scalars import LiteralKey, Scalar
 
-Cells = Mapping[Position, Scalar]
+CellNumbers = Mapping[Position, Scalar]
 Literals = Mapping[LiteralKey, float]
 """What takes the place of cells, and of numbers typed into formulas."""
 _ROUGH = 1e-7
@@ -109,7 +109,7 @@ class Force:
     u: State
     sign: float
     e: float | None = None
-    cells: Cells | None = None
+    cells: CellNumbers | None = None
     literals: Literals | None = None
 
     def __call__(self, depth: float, speed: float) -> float:
@@ -552,7 +552,7 @@ def _named_force(
 
 
 def numbers_with(
-    fitted: TableFit, table: SchemeTable, cells: Cells, literals: Literals
+    fitted: TableFit, table: SchemeTable, cells: CellNumbers, literals: Literals
 ) -> dict[str, float]:
     """The numbers by name, with some inputs replaced: of c, e and t only their ratios count."""
     probe, six = fitted.probe, fitted.six

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reference.units import to_si
-from replication.check.fit import Cells, Literals, TableFit, numbers_with
+from replication.check.fit import CellNumbers, Literals, TableFit, numbers_with
 from replication.check.six import first_speed
 from replication.check.table import SchemeTable
 from spreadsheets.foreign import Position
@@ -171,7 +171,7 @@ def influences(table: SchemeTable, fitted: TableFit) -> list[Influence]:
         return [Influence(p, None, value, {}, traced.cells[p]) for p, value in numbers.items()]
     base = _all_numbers(table, fitted, {}, {})
 
-    def exponents(cells: Cells, literals: Literals) -> dict[str, float]:
+    def exponents(cells: CellNumbers, literals: Literals) -> dict[str, float]:
         now = _all_numbers(table, fitted, cells, literals)
         ratios = {n: now.get(n, math.nan) / value for n, value in base.items() if value}
         good = {n: ratio for n, ratio in ratios.items() if 0 < ratio < math.inf}
@@ -212,7 +212,7 @@ def _plain_steps(plain: Sequence[Influence], stepless: Sequence[str]) -> list[In
 
 
 def _all_numbers(
-    table: SchemeTable, fitted: TableFit, cells: Cells, literals: Literals
+    table: SchemeTable, fitted: TableFit, cells: CellNumbers, literals: Literals
 ) -> dict[str, float]:
     """The six numbers and the time step, with some inputs replaced."""
     result = numbers_with(fitted, table, cells, literals)

@@ -16,7 +16,7 @@ from replication.check.responses import Influence, Item, unit_power
 from replication.check.roles import Inputs
 from replication.check.six import VARIANTS, start_of_row
 from replication.check.table import SchemeTable
-from replication.check.words import COLUMNS, INPUTS
+from replication.check.words import COLUMNS, INPUT_UNITS
 
 _ALIKE = 1e-9
 """The decimal logarithm of a ratio up to which what formulas give is equal."""
@@ -204,7 +204,7 @@ def state_units(table: SchemeTable, inputs: Inputs) -> None:
             inputs.stated["column", role] = line.sure
     for role, source in (*inputs.cells.items(), *inputs.derived.items()):
         _, unit = inputs.label(source)
-        if unit and same_dimension(unit, INPUTS[role]) and INPUTS[role] != "1":
+        if unit and same_dimension(unit, INPUT_UNITS[role]) and INPUT_UNITS[role] != "1":
             inputs.powers[source.item] = math.log10(float(to_si(unit)))
         else:
             inputs.stated.pop(source.item, None)

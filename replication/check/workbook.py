@@ -19,7 +19,7 @@ from replication.check.stale import stale
 from replication.check.table import LEAST, Line, SchemeTable, cell_name, runs, tables
 from replication.check.words import (
     COLUMNS,
-    INPUTS,
+    INPUT_UNITS,
     column_roles,
     input_roles,
     is_unit,
@@ -288,7 +288,7 @@ def _mapped(
     cells: dict[str, Position] = {}
     for name, where in mapping.items():
         area = _area(name, where, evaluator)
-        if name in INPUTS and area.cells == 1 and name not in columns:
+        if name in INPUT_UNITS and area.cells == 1 and name not in columns:
             cells[name] = (area.sheet, area.top, area.left)
             if type(evaluator.values.get(cells[name])) is not float:
                 raise ValueError(
@@ -324,8 +324,8 @@ def _named_line(name: str, where: str, area: Area, evaluator: Evaluator) -> Line
 def _area(name: str, where: str, evaluator: Evaluator) -> Area:
     """Return the range that --map gives. Raises ValueError if there is no single one."""
     book = evaluator.book
-    if name not in (*_LINES, *INPUTS):
-        meant = advice(name, dict.fromkeys([*COLUMNS, *INPUTS]))
+    if name not in (*_LINES, *INPUT_UNITS):
+        meant = advice(name, dict.fromkeys([*COLUMNS, *INPUT_UNITS]))
         raise ValueError(f"--map {name[:40]!r} is not a known name; {meant}")
     areas: list[Area] = []
     for sheet in book.sheets:

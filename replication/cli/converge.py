@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from replication.plots import Points
 
-Level = Mapping[str, Any]
+_Level = Mapping[str, Any]
 """The results at one time step, as the JSON has them."""
 
 HELP = "split the sheet's error at several time steps; observed order, limit"
@@ -87,7 +87,7 @@ def _convergence_figure(
     return plot_converge(case, record, title, points)
 
 
-def _notes(levels: Sequence[Level]) -> list[str]:
+def _notes(levels: Sequence[_Level]) -> list[str]:
     """Return each kind of warning once. Of a ladder they are expected: its first steps are long."""
     texts, also = dict[str, str](), dict[str, list[str]]()
     for level in levels:
@@ -153,7 +153,7 @@ def _convergence_text(
     return "\n".join(lines)
 
 
-def _errors(levels: Sequence[Level]) -> list[tuple[str, ...]]:
+def _errors(levels: Sequence[_Level]) -> list[tuple[str, ...]]:
     """Return the rows of the first table: depth, error, and what governs it, at each step."""
     return [
         ("step", "steps", "depth", "error", "order", "governed by"),
@@ -172,7 +172,7 @@ def _errors(levels: Sequence[Level]) -> list[tuple[str, ...]]:
     ]
 
 
-def _error_parts(levels: Sequence[Level]) -> list[tuple[str, ...]]:
+def _error_parts(levels: Sequence[_Level]) -> list[tuple[str, ...]]:
     """Return the rows of the second table: the four parts of the error at each step."""
     return [
         ("step", "time step", "order", "stop rule", "half step", "rounding"),

@@ -27,7 +27,7 @@ from replication.user_input import place, read_number
 HELP = "print the exact final depth of a case, or that by another model"
 EXAMPLE = "coldspray depth --velocity '450 m/s' --radius '5 um' --models"
 
-ABOUT = {
+MODELS_IN_WORDS = {
     "rigid": "a rigid particle, drag and resistance: Eqs. 12 and 13 without time steps",
     "constant-pressure": "the pressure is R_t throughout: no inertia of the target",
     "frank-zook": "Frank and Zook, as Eqs. 14 and 15 give it: a fitted model",
@@ -178,7 +178,7 @@ def _depth_in_words(case: Impact, result: Mapping[str, Any]) -> str:
         inputs = {
             key: x for key, x in result["inputs"].items() if key not in DEPTH_MODELS[name].own
         }
-        head = [filled(f"{name}: {ABOUT[name]}"), filled(inputs_in_words(inputs))]
+        head = [filled(f"{name}: {MODELS_IN_WORDS[name]}"), filled(inputs_in_words(inputs))]
     return "\n".join(
         [
             *head,
@@ -198,7 +198,7 @@ def _all(case: Impact, results: Sequence[Mapping[str, Any]]) -> str:
         depth, ratio = number(result["depth"] * 1e6, 8), number(result["normalized_depth"], 8)
         resistance = number(result["inputs"]["resistance"] / 1e9)
         rows.append((result["model"], depth, ratio, resistance))
-    about = [filled(f"{name}: {ABOUT[name]}", hanging="  ") for name in ABOUT]
+    about = [filled(f"{name}: {MODELS_IN_WORDS[name]}", hanging="  ") for name in MODELS_IN_WORDS]
     table = aligned(rows, right=True)
     return "\n".join([filled(in_words(case)), "", *table, *_own_table(results), "", *about])
 

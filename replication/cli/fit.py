@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 HELP = "fit the resistance, or beta, to measured velocities and depths"
 EXAMPLE = "coldspray fit measured.csv --quantity beta --flow-stress '700 MPa'"
 
-NAMES = {name.replace("_", "-"): name for name in FITTABLE}
+FITTED_NAMES = {name.replace("_", "-"): name for name in FITTABLE}
 """What can be fitted, as it is typed."""
 
 
@@ -52,8 +52,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "name; of a 'diameter [um]' the radius is half",
     )  # fmt: skip
     parser.add_argument(
-        "--quantity", metavar="NAME", type=one_of("quantity", NAMES), default="resistance",
-        help=f"what is fitted: {', '.join(NAMES)} (default: %(default)s)",
+        "--quantity", metavar="NAME", type=one_of("quantity", FITTED_NAMES), default="resistance",
+        help=f"what is fitted: {', '.join(FITTED_NAMES)} (default: %(default)s)",
     )  # fmt: skip
     add_csv_and_json(parser, "print the measurements, with fitted depths and residuals, as CSV")
     add_quiet(parser)
@@ -63,7 +63,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the fitted value with its standard error, and the residual of every measurement."""
-    quantity, given = NAMES[options.quantity], given_inputs(options)
+    quantity, given = FITTED_NAMES[options.quantity], given_inputs(options)
     if "velocity" in given:
         raise ValueError("--velocity: the file has the velocities: leave it out")
     refuse_sought(quantity, given, "fitted")

@@ -20,7 +20,7 @@ have the colors and marks of their curves in the workbook."""
 
 WIDTH = 440
 
-Points = Iterable[tuple[float, float]]
+PlanePoints = Iterable[tuple[float, float]]
 
 
 def draw_figures(record: Record) -> dict[str, str]:
@@ -107,10 +107,10 @@ class _Plot:
         for k, line in enumerate(lines):
             self.text(x, middle + 4 + 13 * (k - (len(lines) - 1) / 2), line, "end")
 
-    def line(self, points: Points, color: str = INK, dashes: str = "") -> None:
+    def line(self, points: PlanePoints, color: str = INK, dashes: str = "") -> None:
         self.path([self.at(*point) for point in points], color, dashes)
 
-    def marks(self, kind: str, color: str, points: Points) -> None:
+    def marks(self, kind: str, color: str, points: PlanePoints) -> None:
         for point in points:
             self.mark(kind, color, *self.at(*point))
 
@@ -148,7 +148,7 @@ class _Plot:
         self.parts.append(f'<{place} fill="{fill}" stroke="{color}"{turn}/>')
 
     def path(
-        self, points: Points, color: str = INK, dashes: str = "", opacity: float = 1.0
+        self, points: PlanePoints, color: str = INK, dashes: str = "", opacity: float = 1.0
     ) -> None:
         path = " ".join(f"{_n(x)},{_n(y)}" for x, y in points)
         faint = f' stroke-opacity="{opacity}"' if opacity < 1 else ""

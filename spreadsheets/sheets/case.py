@@ -158,7 +158,7 @@ class RowColumn(NamedTuple):
     like: str = ""
 
 
-COLUMNS: Mapping[str, RowColumn] = {
+ROW_COLUMNS: Mapping[str, RowColumn] = {
     "A": RowColumn("Row", "index"),
     "B": RowColumn("Time", "time", "s", "0.00E+00"),
     "C": RowColumn("dx/dt initial", "velocity_initial", "m/s", "0.000", "velocity"),
@@ -197,7 +197,7 @@ def _rows(sheet: SheetPlan, case: CaseSheet) -> str:
     letters = "ABCDEFGH" if case.scheme is Scheme.CENTERED else "ABCDEFG"
     rows = [_row_formulas(case, step) for step in range(case.rows + 1)]
     for letter in letters:
-        column = COLUMNS[letter]
+        column = ROW_COLUMNS[letter]
         cells = [
             formula(
                 f"{case.part}.row.{column.key}[{step}]", formulas[letter],

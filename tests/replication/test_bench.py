@@ -21,7 +21,16 @@ from running import coldspray
 
 from replication import BETA_5, history
 from replication.bench import measure
-from replication.bench.measure import DIGITS, MEASURES, STEPS, Case, Point, Task, build_case, tasks
+from replication.bench.measure import (
+    CORRECT_DIGITS,
+    MEASURES,
+    STEPS,
+    Case,
+    Point,
+    Task,
+    build_case,
+    tasks,
+)
 from replication.bench.peers import SOLVERS
 from replication.bench.show import accuracy_figure, texts
 
@@ -94,7 +103,7 @@ INTERPRETED = (
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
 def test_methods_find_the_exact_depths(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("replication.bench.measure.POINTS", 11)
+    monkeypatch.setattr("replication.bench.measure.HISTORY_POINTS", 11)
     case = build_case(name)
     # The solvers step over the kink of Eq. 13 at x = R, and lose accuracy there.
     kink = 1.0 if name == "beta-5" else 1e4
@@ -204,7 +213,10 @@ def test_the_table_of_two_made_up_runs() -> None:
         point(8e-6, 4e-5, "RK4", **history),
     ]
     measure.mark_front(points)
-    rows = [measure.fastest(points, *asked) for asked in product((False, True), MEASURES, DIGITS)]
+    rows = [
+        measure.fastest(points, *asked)
+        for asked in product((False, True), MEASURES, CORRECT_DIGITS)
+    ]
     case = {"name": "beta-5", "depth": 7.67e-6, "points": points, "fastest": rows}
     machine = {"processor": "abacus", "cores": 1}
     settings = [

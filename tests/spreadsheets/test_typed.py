@@ -10,7 +10,7 @@ import pytest
 from workbooks import usable
 
 from spreadsheets.engines import Engine
-from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, Value
+from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, ShownValue
 from spreadsheets.sheets.messages import (
     CHANGED,
     COARSE,
@@ -55,7 +55,7 @@ class Said:
     stale: bool = True
     labels: Mapping[str, str] = field(default_factory=dict)
     notes: Mapping[str, str] = field(default_factory=dict)
-    also: Mapping[str, Value] = field(default_factory=dict)
+    also: Mapping[str, ShownValue] = field(default_factory=dict)
 
     @property
     def cells(self) -> dict[str, float | str | None]:
@@ -207,7 +207,7 @@ def check_unusable(page: Any, usual: Any, bad: Mapping[str, str]) -> None:
     assert page.errors.keys() <= typed
 
 
-def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[Value]:
+def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[ShownValue]:
     """Return what a cell may show that depends on an unusable input."""
     name, _, ending = key.rpartition(".")
     if name in bad:
@@ -246,7 +246,7 @@ def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[Value]:
     return {NOT_AVAILABLE, ""}
 
 
-def allowed_beside(ending: str, typed: float | str | None, fault: str) -> set[Value]:
+def allowed_beside(ending: str, typed: float | str | None, fault: str) -> set[ShownValue]:
     """Return what a cell may show in the row of an input that cannot be used, by its key's end."""
     if ending in ("number", "taken") and isinstance(typed, float):
         return {typed}
