@@ -149,7 +149,7 @@ def _drawn_pair(
 ) -> JsonObject:
     """A sheet with its differences marked, with the values that are stored."""
 
-    def holds(at: Position) -> tuple[object, str | None]:
+    def content(at: Position) -> tuple[object, str | None]:
         return book[at].value, book[at].formula
 
-    return drawn(name, sheets, differences, book.sheets[name], holds)
+    return drawn(name, sheets, differences, book.sheets[name], content)

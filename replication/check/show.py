@@ -356,5 +356,5 @@ def _drawn_sheet(
 ) -> JsonObject:
     """A sheet with its differences marked, with the values that were calculated."""
     values, book = evaluator.values, evaluator.book
-    filled = {place[1:] for place in values if place[0] == name}
-    return drawn(name, sheets, differences, filled, lambda at: (values.get(at), book[at].formula))
+    nonblank = {place[1:] for place in values if place[0] == name}
+    return drawn(name, sheets, differences, nonblank, lambda at: (values.get(at), book[at].formula))

@@ -85,12 +85,13 @@ def drawn(
     name: str,
     sheets: Sequence[str],
     differences: Iterable[Difference],
-    filled: Iterable[tuple[int, int]],
-    holds: Callable[[Position], tuple[object, str | None]],
+    nonblank: Iterable[tuple[int, int]],
+    content: Callable[[Position], tuple[object, str | None]],
 ) -> JsonObject:
     """A sheet with its differences marked: its name, column letters, and rows of cells.
 
-    `filled` are its cells that are not blank, `holds` gives the value and the formula of a cell.
+    `nonblank` are its cells that are not blank, `content` gives the value and the formula of a
+    cell.
     """
     origins: dict[tuple[int, int], int] = {}
     kinds: dict[tuple[int, int], str] = {}
@@ -100,13 +101,13 @@ def drawn(
         for sheet, row, column in difference.cells:
             if sheet == name:
                 kinds.setdefault((row, column), difference.kind.replace(" ", "-"))
-    used = {*filled, *origins}
+    used = {*nonblank, *origins}
     rows = _kept({row for row, _ in used}, {row for row, _ in origins}, _ROWS)
     columns = _kept({column for _, column in used}, {column for _, column in origins}, _COLUMNS)
 
     def cell(at: tuple[int, int]) -> JsonObject:
         place = (name, *at)
-        value, formula = holds(place)
+        value, formula = content(place)
         is_number, kind = isinstance(value, float), kinds.get(at)
         classes = ("right" * is_number, kind and f"marked {kind}", "origin" * (at in origins))
         return {

@@ -16,7 +16,7 @@ from replication.cli.case import (
     refuse_sought,
 )
 from replication.cli.options import add_csv_and_json, add_quiet, one_of, path
-from replication.cli.output import filled, put
+from replication.cli.output import paragraph, put
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.columns import note_of_unused, read_columns
 from replication.fit import (
@@ -180,7 +180,7 @@ def _fit_text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[s
         results.append(("chi square", f"{number(fitted.chi_square, 4)}, {freedom} expected"))
     return "\n".join(
         [
-            filled(inputs_in_words(inputs)),
+            paragraph(inputs_in_words(inputs)),
             "",
             *numbers((*heads, "over uncertainty") if weighted else heads, table),
             "",

@@ -17,7 +17,7 @@ from replication.cli.case import (
     shown_in,
 )
 from replication.cli.options import add_json, add_quiet, one_of
-from replication.cli.output import filled, put, width
+from replication.cli.output import paragraph, put, width
 from replication.models.impact import Impact, InputError
 from replication.solve import DEPTHS, QUANTITIES, Solution, solve, solve_printed
 from replication.text import between, columns, number, with_unit
@@ -138,7 +138,7 @@ def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:
     if answer.condition is not None:
         means = "relative change of it for one of the depth"
         rows.append(("condition", f"{number(answer.condition, 3)}: {means}"))
-    return f"{filled(inputs_in_words(answer.inputs))}\n\n{columns(rows, min(width(), 100))}"
+    return f"{paragraph(inputs_in_words(answer.inputs))}\n\n{columns(rows, min(width(), 100))}"
 
 
 def _proven_range(answer: Solution, texts: Mapping[str, str]) -> str:
