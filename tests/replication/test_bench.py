@@ -244,9 +244,9 @@ def test_the_loosest_setting_gives_the_digits_in_every_case(
     digits: int, expected: tuple[str | None, float | None]
 ) -> None:
     settings = ("1e-4", "1e-6", "1e-8", "1e-12")
-    other = point(1e-15, 1e-6, "other", setting="1e-4")
+    reference = point(1e-15, 1e-6, "other", setting="1e-4")
     first, second = (
-        [other, *(point(error, time, "solver", setting=setting)
+        [reference, *(point(error, time, "solver", setting=setting)
                   for setting, error, time in zip(settings, errors, times, strict=True))]
         for errors, times in (
             ((1e-9, 1e-9, 1e-10, 1e-12), (1e-4, 2e-4, 3e-4, 4e-4)),

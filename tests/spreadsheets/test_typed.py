@@ -13,7 +13,6 @@ from spreadsheets.engines import Engine
 from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, ShownValue
 from spreadsheets.sheets.messages import (
     CHANGED,
-    COARSE,
     COMPLETE,
     CURRENT,
     DOUBTFUL,
@@ -34,6 +33,7 @@ from spreadsheets.sheets.messages import (
     REVERSED,
     RUN_SAYS,
     STALE,
+    STEP_TOO_LONG,
     UNCHANGED,
     UNUSABLE,
 )
@@ -76,7 +76,7 @@ SCENARIOS = {
         {"dt_s": 40.0}, (ONE_STEP, ONE_STEP, COMPLETE, COMPLETE), 1, notes=BOTH_COARSE
     ),
     "a step too long": Said(
-        {"dt_s": 12.0}, (COARSE, COARSE, COMPLETE, COMPLETE), 1, notes=BOTH_COARSE,
+        {"dt_s": 12.0}, (STEP_TOO_LONG, STEP_TOO_LONG, COMPLETE, COMPLETE), 1, notes=BOTH_COARSE,
         also={"steps_low": 3.0, "steps_high": 3.0},
     ),
     "another stop": Said({"v_stop": 2.0}, [COMPLETE] * 4, 1, also={"steps_high": 130.0}),
@@ -107,7 +107,7 @@ SCENARIOS = {
         {"dt_coarse": 0.1}, USUAL, 1, stale=False, notes=BOTH_COARSE
     ),
     "a coarse step too long": Said(
-        {"dt_coarse": 20.0}, (COMPLETE, REVERSED, COARSE, COARSE), 1, stale=False
+        {"dt_coarse": 20.0}, (COMPLETE, REVERSED, STEP_TOO_LONG, STEP_TOO_LONG), 1, stale=False
     ),
     "another mean particle": Said({"D_mean": 30.0}, USUAL, 1, stale=False),
     "a radius that is almost the report's": Said(
