@@ -11,9 +11,9 @@ cells, nor formats, rows and columns.
 import math
 import re
 import zipfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from errno import EEXIST
-from functools import cache, partial
+from functools import cache
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
@@ -145,7 +145,6 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, ShownValue]) -> bytes:
     book.set_custom_property(_SEAL, _UNSEALED)
     for sheet in plan.sheets:
         page = book.add_worksheet(sheet.name)
-        page._prepare_formula = partial(_stored, page._prepare_formula)
         _set_up(page, sheet, unlocked)
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.shown, cell.wrap, bool(cell.formula))
@@ -172,32 +171,6 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, ShownValue]) -> bytes:
     parts = _archive_parts(file.getvalue())
     corrected = {name: _corrected(name, part) for name, part in parts.items()}
     return _zipped(_sealed(corrected))
-
-
-_FUNCTION = re.compile(r"[\w.]+(?=\()")
-
-
-def _stored(prepare: Callable[[str], str], formula: str) -> str:
-    """Return a formula as it is stored: without "=", and with the prefixes of newer functions.
-
-    XlsxWriter's own method, `prepare`, looks for thirty functions in each formula; for our
-    thousands of formulas that takes a sixth of an audit. So it is only asked where one occurs.
-    """
-    if formula.endswith("}") or any(map(_is_newer, _FUNCTION.findall(formula))):
-        return prepare(formula)
-    return formula.removeprefix("=")
-
-
-@cache
-def _is_newer(function: str) -> bool:
-    """Return whether XlsxWriter stores this function with a prefix.
-
-    >>> _is_newer("XLOOKUP"), _is_newer("LOOKUP")
-    (True, False)
-    """
-    from xlsxwriter.worksheet import Worksheet
-
-    return bool(Worksheet()._prepare_formula(f"{function}(") != f"{function}(")
 
 
 def _corrected(name: str, part: bytes) -> bytes:

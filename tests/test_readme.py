@@ -20,6 +20,7 @@ from xml.etree import ElementTree as ET
 import pytest
 from running import coldspray
 
+from reference.scheme import Scheme
 from replication import BETA_3, BETA_5, final_depth, run, stop_time
 from replication.audit.record import Record
 from replication.power import measured_rates
@@ -182,6 +183,19 @@ def test_times_are_those_of_the_whole_table() -> None:
     (block,) = re.findall(r"```text\n(.*?)```", README, re.DOTALL)
     whole = (ROOT / "docs" / "bench" / "bench.txt").read_text("utf-8").splitlines()
     assert {line.rstrip() for line in block.splitlines()} <= {line.rstrip() for line in whole}
+
+
+def test_the_changelog_has_what_the_audit_computes(record: Record) -> None:
+    """X/R by Frank and Zook, as printed and as derived, and the densities, to the last digit."""
+    text = " ".join((ROOT / "CHANGELOG.md").read_text("utf-8").split())
+    pair = [record.claim(f"frank-zook-{target}") for target in ("rha", "stainless")]
+    for reading in (0, 1):
+        shown = [f"{claim.assessment.readings[reading].computed:.5f}" for claim in pair]
+        assert f" | {shown[0]} | {shown[1]} | " in text
+    (density,) = [i for i in record.inferred if i.scheme is Scheme.PUBLISHED]
+    spheres, printed = density.interval, density.with_printed_mass
+    assert "from {:.3f} to {:.3f} kg/m³ with the mass".format(*map(float, spheres)) in text
+    assert "from {:.3f} to {:.3f} with the printed mass".format(*map(float, printed)) in text
 
 
 def test_the_changelog_has_the_depths_and_times_of_the_models() -> None:

@@ -103,7 +103,11 @@ def _cross_checked(ledger: Ledger, name: str) -> Assessment:
         checked = CROSS_CHECKS[name](ledger)
     except (ArithmeticError, ValueError) as error:  # an input has no meaning
         return Assessment(Verdict.INCONSISTENT, no_value=str(error))
-    return Assessment(checked.verdict, compared=checked.says)
+    if checked.with_sources:
+        verdict = Verdict.AGREES if checked.agrees else Verdict.DIFFERS
+    else:
+        verdict = Verdict.CONSISTENT if checked.agrees else Verdict.INCONSISTENT
+    return Assessment(verdict, compared=checked.says)
 
 
 def is_contradicted(ledger: Ledger, name: str) -> bool:

@@ -117,6 +117,11 @@ def _heyoka(tolerance: float, b: float, c: float, times: Any) -> Any:
     return np.concatenate([depths, beyond.propagate_grid(rest)[-1][1:, 0]])
 
 
+def crosses_radius(b: float, c: float) -> bool:
+    """Return whether y exceeds 1: by Eq. 13 without time, y^2 - y^3/3 is 2/3 there."""
+    return math.log1p(b / c) / (2 * b) > 2 / 3
+
+
 @cache
 def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
     """Return an integrator that stops at y = 1, and one for the motion beyond."""
@@ -125,8 +130,7 @@ def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
     except ImportError as error:
         raise ValueError("not installed: python -m pip install 'coldspray[bench]'") from error
     y, u = heyoka.make_vars("y", "u")
-    crosses = math.log1p(b / c) / (2 * b) > 2 / 3
-    events: Any = {"t_events": [heyoka.t_event(y - 1)]} if crosses else {}
+    events: Any = {"t_events": [heyoka.t_event(y - 1)]} if crosses_radius(b, c) else {}
     return [
         heyoka.taylor_adaptive([(y, u), (u, -(b * u * u + c) * area)], tol=tolerance, **more)
         for area, more in ((2 * y - y * y, events), (1.0, {}))

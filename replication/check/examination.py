@@ -11,6 +11,7 @@ from replication.check.roles import Input
 from replication.check.six import Six
 from replication.check.table import SchemeTable
 from replication.check.words import COLUMNS
+from replication.models.impact import STOP_VELOCITY
 from spreadsheets.foreign import Position, Value
 from spreadsheets.scalars import Error
 
@@ -65,7 +66,7 @@ class Examination:
     firm_speed: bool = False
     read: frozenset[Position] = frozenset()
     intended: Six | None = None
-    stop_velocity: float = 1.0
+    stop_velocity: float = STOP_VELOCITY
     right_depth: float | None = None
     ends: bool = True
     stop_row: int | None = None

@@ -237,7 +237,7 @@ def _histories(*values: Any) -> Any:
 
 def run_many(
     velocity: Any, radius: Any, particle_density: Any, target_density: Any, resistance: Any,
-    step: Any = impact.DEFAULT_STEP, stop_velocity: Any = impact.DEFAULT_STOP_VELOCITY,
+    step: Any = impact.DEFAULT_STEP, stop_velocity: Any = impact.STOP_VELOCITY,
     scheme: str = Scheme.PUBLISHED,
 ) -> Any:  # fmt: skip
     """Final depth X [m] and number of steps of the report's sheet, for cases that broadcast.
@@ -539,8 +539,6 @@ def _compiled(model: Model, alone: bool) -> Any:
     from filelock import FileLock
     from numba import b1, f8, i8, types, void
 
-    if numba.config.DISABLE_JIT:
-        raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
     _make_known()
     line = types.Array(f8, 1, "C", readonly=True)
     compilers = {
@@ -599,6 +597,8 @@ def import_numba() -> Any:
         except ValueError as error:  # its message does not name the variable, NUMBA_NUM_THREADS
             named = f"an environment variable NUMBA_...: {error} Correct or unset it"
             raise ValueError(named) from error
+    if numba.config.DISABLE_JIT:
+        raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
     return numba
 
 

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
-DEFAULT_STEP, DEFAULT_STOP_VELOCITY = 2e-10, 1.0
+DEFAULT_STEP, STOP_VELOCITY = 2e-10, 1.0
 """The report's time step [s], and the velocity [m/s] below which its sheet stops."""
 
 MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity", "particle_strength"})
@@ -55,7 +55,7 @@ class Impact:
     flow_stress: float | None = None
     resistance: float | None = None
     step: float = DEFAULT_STEP
-    stop_velocity: float = DEFAULT_STOP_VELOCITY
+    stop_velocity: float = STOP_VELOCITY
 
     def __post_init__(self) -> None:
         product = (self.beta is not None, self.flow_stress is not None)

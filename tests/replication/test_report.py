@@ -505,18 +505,52 @@ def test_what_the_figures_say(name: str, words: str, files: dict[str, bytes]) ->
     assert " | ".join(str(text.text) for text in root.iter(f"{SVG}text")) == words
 
 
+def points(element: ET.Element) -> list[tuple[float, float]]:
+    """The ends of what an element of an SVG draws; of a text and a circle its place."""
+    at = element.attrib
+    if element.tag == f"{SVG}polyline":
+        return [(float(x), float(y)) for x, y in (p.split(",") for p in at["points"].split())]
+    x, y = float(at.get("x", at.get("cx", 0))), float(at.get("y", at.get("cy", 0)))
+    return [(x, y), (x + float(at.get("width", 0)), y + float(at.get("height", 0)))]
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "legend"),
+    [
+        ("comparison", "Normalized depth X/R", "computed, β = 3"),
+        ("sensitivity", "Depth X [µm]", "input at its low end"),
+        ("figure-3", "", ""),
+        ("figure-5", "", ""),
+        ("convergence", "Time step [ns]", "drag at the initial velocity, β = 3"),
+    ],
+)
+def test_all_is_drawn_within_the_figure_and_a_legend_not_over_the_bars(
+    name: str, axis: str, legend: str, files: dict[str, bytes]
+) -> None:
+    root = ET.fromstring(files[f"figures/{name}.svg"])
+    width, height = float(root.attrib["width"]), float(root.attrib["height"])
+    for element in root:
+        for x, y in points(element):
+            assert (0 <= x <= width, 0 <= y <= height) == (True, True), element.attrib
+    down = {str(text.text): float(text.attrib["y"]) for text in root.iter(f"{SVG}text")}
+    if legend:
+        assert down[legend] > down[axis]
+
+
 def test_the_middle_velocity_has_dashed_lines_and_hollow_marks(files: dict[str, bytes]) -> None:
     """So that the two schemes differ in gray; the marks of the report's own are filled."""
     root = ET.fromstring(files["figures/convergence.svg"])
     shapes = [*root.iter(f"{SVG}circle"), *root.iter(f"{SVG}rect")]
     hollow = {center(shape) for shape in shapes if shape.get("fill") == "none"}
+    legend = [text for text in root.iter(f"{SVG}text") if str(text.text).startswith("drag")]
+    assert len(legend) == 4
+    for text in legend:
+        ((x, y), _) = points(text)
+        assert ((x - 15, y - 4) in hollow) == ("middle" in str(text.text))
     for line in root.iter(f"{SVG}polyline"):
-        if points := [
-            tuple(map(float, point.split(","))) for point in line.get("points", "").split()
-        ]:
-            assert {point in hollow for point in points} == {
-                line.get("stroke-dasharray") is not None
-            }
+        assert {point in hollow for point in points(line)} == {
+            line.get("stroke-dasharray") is not None
+        }
 
 
 def center(shape: ET.Element) -> tuple[float, float]:
