@@ -20,14 +20,16 @@ from pathlib import Path
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import ROW_HEIGHT, Cell, Chart, SheetPlan, Value, WorkbookPlan
+from spreadsheets.plan import ROW_HEIGHT, Cell, Chart, SheetPlan, ShownValue, WorkbookPlan
 from spreadsheets.safely import UNREADABLE, check_target
 from spreadsheets.styles import CURVES, RULES, STYLES
 
 _ARIAL = {"font_name": "Arial", "font_size": 10}
 
 
-def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
+def cell_values(
+    plan: WorkbookPlan, values: Mapping[str, ShownValue]
+) -> dict[str, dict[str, ShownValue]]:
     """Return what every cell of the workbook shows, texts included, by sheet and address.
 
     Raises ValueError unless `values` has exactly the keys of the plan and every number is finite.
@@ -38,7 +40,7 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
     ):
         if keys:
             raise ValueError(f"{len(keys)} {problem} value(s), the first is {min(keys)!r}")
-    shown: dict[str, dict[str, Value]] = {sheet.name: {} for sheet in plan.sheets}
+    shown: dict[str, dict[str, ShownValue]] = {sheet.name: {} for sheet in plan.sheets}
     for (sheet, address), cell in plan.cells.items():
         constant = cell.text if cell.number is None else cell.number
         value = values[cell.key] if cell.key else constant
@@ -118,7 +120,7 @@ def _zipped(parts: Mapping[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
-def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
+def to_bytes(plan: WorkbookPlan, values: Mapping[str, ShownValue]) -> bytes:
     """Return the bytes of the .xlsx file. Raises ValueError as `cell_values` does."""
     import xlsxwriter
 
@@ -219,7 +221,7 @@ def _set_up(page: Any, sheet: SheetPlan, unlocked: Any) -> None:
     page.ignore_errors(dict.fromkeys(kinds, "A1:XFD1048576"))
 
 
-def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
+def _write_cell(page: Any, address: str, cell: Cell, value: ShownValue, style: Any) -> None:
     """Write one cell; for an input, also what may be typed into it."""
     if cell.formula:
         page.write_formula(address, cell.formula, style, value)
@@ -261,8 +263,8 @@ _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 
 
 def _draw(
-    book: Any, page: Any, name: str, chart: Chart, shown: Mapping[str, Value],
-    values: Mapping[str, Value],
+    book: Any, page: Any, name: str, chart: Chart, shown: Mapping[str, ShownValue],
+    values: Mapping[str, ShownValue],
 ) -> None:  # fmt: skip
     """Draw a chart of the cells of the sheet `name` on a page; `shown` is what they show."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
@@ -291,7 +293,7 @@ def _draw(
     page.insert_chart(chart.at, drawn, {"description": chart.describe(values)})
 
 
-def _charted(cells: str, shown: Mapping[str, Value]) -> list[float | None]:
+def _charted(cells: str, shown: Mapping[str, ShownValue]) -> list[float | None]:
     """Return the numbers of a range in one column; None stands for a cell without a number."""
     (column, first), (_, last) = (re.findall(r"[A-Z]+|\d+", end) for end in cells.split(":"))
     in_cells = (shown.get(f"{column}{row}") for row in range(int(first), int(last) + 1))

@@ -14,6 +14,7 @@ from typing import Any
 
 from reference.ledger import Claim
 from reference.scheme import Scheme
+from replication.audit.comparison import BETAS
 from replication.audit.findings.resistance import johnson_cook_copper, resistances
 from replication.audit.findings.stream import GAUSSIAN
 from replication.audit.record import Figure
@@ -23,8 +24,6 @@ from replication.models.crater import contact_diameter, volume_ratio
 from replication.models.estimates import penetration_threshold
 from replication.models.impact import InputError
 from replication.models.inverse import velocity_for_depth
-
-BETAS = (3, 5)
 
 
 def figures(results: Results, claim: Claim) -> list[Figure]:

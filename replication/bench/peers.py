@@ -13,8 +13,8 @@ from typing import Any
 import numba
 import numpy as np
 
-Function = Callable[..., Any]
-njit: Callable[[Function], Function] = numba.njit  # Numba's own has no type hints
+Kernel = Callable[..., Any]
+njit: Callable[[Kernel], Kernel] = numba.njit  # Numba's own has no type hints
 
 
 @njit
@@ -65,7 +65,7 @@ def _dop853(tolerance: float, b: float, c: float, times: Any) -> Any:
     return [0.0, *(solver.integrate(time)[0] for time in times[1:].tolist())]
 
 
-def _runge_kutta(*rows: tuple[float, ...]) -> Function:
+def _runge_kutta(*rows: tuple[float, ...]) -> Kernel:
     """Return the explicit method of a Butcher tableau, with equal steps between the times.
 
     The arguments are the rows of its matrix but the first, which is empty, and then its weights.
@@ -140,7 +140,7 @@ def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 3e-14)
 """Relative and absolute tolerances; SciPy accepts no relative one below 2.2e-14."""
 
-SOLVERS: dict[str, tuple[str, Sequence[float], Function]] = {
+SOLVERS: dict[str, tuple[str, Sequence[float], Kernel]] = {
     **{
         f"solve_ivp {name}": ("rtol {:g}", TOLERANCES, partial(_solve_ivp, name))
         for name in ("RK45", "DOP853", "LSODA", "Radau")

@@ -158,7 +158,7 @@ class RowColumn(NamedTuple):
     like: str = ""
 
 
-COLUMNS: Mapping[str, RowColumn] = {
+ROW_COLUMNS: Mapping[str, RowColumn] = {
     "A": RowColumn("Row", "index"),
     "B": RowColumn("Time", "time", "s", "0.00E+00"),
     "C": RowColumn("dx/dt initial", "velocity_initial", "m/s", "0.000", "velocity"),
@@ -197,7 +197,7 @@ def _rows(sheet: SheetPlan, case: CaseSheet) -> str:
     letters = "ABCDEFGH" if case.scheme is Scheme.CENTERED else "ABCDEFG"
     rows = [_row_formulas(case, step) for step in range(case.rows + 1)]
     for letter in letters:
-        column = COLUMNS[letter]
+        column = ROW_COLUMNS[letter]
         cells = [
             formula(
                 f"{case.part}.row.{column.key}[{step}]", formulas[letter],
@@ -496,8 +496,8 @@ def _renamed(sheet: SheetPlan, case: CaseSheet) -> None:
     s = case.suffix
     sheet.row += 1
     sheet.block("Is β the one of the sheet’s name?")
-    other = f'=IF({_beta(case)}="{case.label}",0,1)'
-    sheet.line(f"other_beta{s}", "", "β is another one", other, shown=YES_OR_NO)
+    is_another = f'=IF({_beta(case)}="{case.label}",0,1)'
+    sheet.line(f"other_beta{s}", "", "β is another one", is_another, shown=YES_OR_NO)
     # That its time step is not longer matters more.
     renamed = f"=IF(longer{s}=1,other_beta{s},0)" if case.coarse else f"=other_beta{s}"
     sheet.state(f"renamed{s}", "I2 says so", renamed, messages.KEEPS_NAME)

@@ -22,8 +22,8 @@ from running import coldspray
 from replication import BETA_5, history
 from replication.bench import measure
 from replication.bench.measure import (
-    CASES,
-    DIGITS,
+    BENCH_CASES,
+    CORRECT_DIGITS,
     MEASURES,
     STEPS,
     Case,
@@ -105,7 +105,7 @@ INTERPRETED = (
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
 def test_methods_find_the_exact_depths(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("replication.bench.measure.POINTS", 11)
+    monkeypatch.setattr("replication.bench.measure.HISTORY_POINTS", 11)
     case = build_case(name)
     # The solvers step over the kink of Eq. 13 at x = R, and lose accuracy there.
     kink = 1.0 if name == "beta-5" else 1e4
@@ -224,7 +224,10 @@ def test_the_table_of_two_made_up_runs() -> None:
         point(8e-6, 4e-5, "RK4", **history),
     ]
     measure.mark_front(points)
-    rows = [measure.fastest(points, *asked) for asked in product((False, True), MEASURES, DIGITS)]
+    rows = [
+        measure.fastest(points, *asked)
+        for asked in product((False, True), MEASURES, CORRECT_DIGITS)
+    ]
     case = {"name": "beta-5", "depth": 7.67e-6, "points": points, "fastest": rows}
     machine = {"processor": "abacus", "cores": 1}
     settings = [
@@ -252,9 +255,9 @@ def test_the_loosest_setting_gives_the_digits_in_every_case(
     digits: int, expected: tuple[str | None, float | None]
 ) -> None:
     settings = ("1e-4", "1e-6", "1e-8", "1e-12")
-    other = point(1e-15, 1e-6, "other", setting="1e-4")
+    reference = point(1e-15, 1e-6, "other", setting="1e-4")
     first, second = (
-        [other, *(point(error, time, "solver", setting=setting)
+        [reference, *(point(error, time, "solver", setting=setting)
                   for setting, error, time in zip(settings, errors, times, strict=True))]
         for errors, times in (
             ((1e-9, 1e-9, 1e-10, 1e-12), (1e-4, 2e-4, 3e-4, 4e-4)),
@@ -269,7 +272,7 @@ def test_the_loosest_setting_gives_the_digits_in_every_case(
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
-        ([], (list(CASES), 7, 5.0)),
+        ([], (list(BENCH_CASES), 7, 5.0)),
         (["--quick"], (["beta-5"], 1, 1.0)),
         (["--quick", "--limit", "300 ms", "--repeat", "2"], (["beta-5"], 2, 0.3)),
     ],

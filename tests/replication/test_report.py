@@ -624,7 +624,7 @@ def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: i
     assert max(map(len, text.splitlines())) <= width
     flat = " ".join(text.split())
     prose = Prose(TERMINAL, record.symbols, {})
-    assert all(prose(f.title) in flat for f in record.findings[: report.FINDINGS])
+    assert all(prose(f.title) in flat for f in record.findings[: report.FINDINGS_ON_SCREEN])
     if width >= 80:
         assert re.search(r"armor +0\.278 +0\.127 +0\.255$", text, re.MULTILINE)
         assert re.search(r"stainless steel +0\.297 +0\.150 +0\.300", text)

@@ -11,7 +11,7 @@ import pytest
 from running import coldspray
 
 from replication import BETA_5, final_depth
-from replication.cli.solve import NAMES
+from replication.cli.solve import SOUGHT_NAMES
 from replication.solve import solve, solve_printed
 
 
@@ -22,16 +22,19 @@ def answer(*arguments: str, status: int = 0) -> dict[str, Any]:
     return dict(json.loads(out))
 
 
-@pytest.mark.parametrize("typed", NAMES)
+@pytest.mark.parametrize("typed", SOUGHT_NAMES)
 def test_json_has_the_promised_keys_and_the_value_of_python(typed: str) -> None:
-    record, expected = answer(typed, "--depth", "3.3 um"), solve(BETA_5, NAMES[typed], 3.3e-6)
+    record, expected = (
+        answer(typed, "--depth", "3.3 um"),
+        solve(BETA_5, SOUGHT_NAMES[typed], 3.3e-6),
+    )
     assert {"inputs", "quantity", "value", "interval", "depth", "normalized_depth"} <= set(record)
-    assert record["quantity"] == NAMES[typed]
+    assert record["quantity"] == SOUGHT_NAMES[typed]
     assert record["value"] == expected.value
     assert record["condition"] == expected.condition
     assert record["depth"] == 3.3e-6
     assert record["interval"] is None
-    assert NAMES[typed] not in record["inputs"]
+    assert SOUGHT_NAMES[typed] not in record["inputs"]
 
 
 def test_a_normalized_depth_is_that_times_the_radius() -> None:

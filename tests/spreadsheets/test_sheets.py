@@ -45,8 +45,8 @@ def formulas(book: Workbook) -> dict[tuple[str, str], str]:
 
 def sheet(book: Workbook, name: str) -> SheetPlan:
     """Return a sheet of a workbook."""
-    (found,) = (page for page in book.plan.sheets if page.name == name)
-    return found
+    (wanted,) = (page for page in book.plan.sheets if page.name == name)
+    return wanted
 
 
 # Formulas
