@@ -186,7 +186,7 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     row: int | None = None
     quantity: str | None = None
     computed_by: str | None = None
-    rests_on: Mapping[str, str] = {}
+    rests_on: Mapping[str, str | list[str]] = {}
     readings: Mapping[str, str] = {}
     assumes: str | None = None
     same_as: str | None = None
@@ -424,14 +424,17 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             claim = replace(claim, computed_by="same_as", rests_on={"value": claim.same_as})
         readings, inputs = {"": claim.computed_by, **claim.readings}, dict(claim.rests_on)
         if group := inputs.pop("group", None):
-            inputs = {**self.groups[group], **inputs}
+            inputs = {**self.groups[str(group)], **inputs}
         places = ((equation.id, equation.place) for equation in self.equations.values())
         around = (name for name, at in places if at.start <= claim.place.start < at.end)
         return replace(
             claim,
             why=claim.given and self.reasons[claim.given],
             computations={key: COMPUTATIONS[name] for key, name in readings.items() if name},
-            inputs={key: tuple(names.split(" * ")) for key, names in inputs.items()},
+            inputs={
+                key: (names,) if isinstance(names, str) else tuple(names)
+                for key, names in inputs.items()
+            },
             within=next(around, None),
             chosen=original.given == "choice",
             bound=claim.number.value if claim.relation else None,

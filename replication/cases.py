@@ -132,11 +132,11 @@ def other_factor(impact: Impact, quantity: str) -> float:
     >>> other_factor(BETA_5, "beta")
     700000000.0
     """
-    other = OTHER_FACTOR[quantity]
-    factor: float | None = getattr(impact, other)
+    divisor = OTHER_FACTOR[quantity]
+    factor: float | None = getattr(impact, divisor)
     if factor is None:
-        words, other = quantity.replace("_", " "), other.replace("_", " ")
-        raise ValueError(f"the {words} is the resistance over the {other}: give the {other}")
+        words, divisor = quantity.replace("_", " "), divisor.replace("_", " ")
+        raise ValueError(f"the {words} is the resistance over the {divisor}: give the {divisor}")
     return factor
 
 

@@ -278,6 +278,6 @@ def _own_resistance(measurement: Measurement) -> float:
         where = f"line {measurement.line}: " if measurement.line else ""
         radii = f"the depth is {measurement.depth / measurement.radius:.3g} times the radius"
         if measurement.line and measurement.depth > 1e3 * measurement.radius:
-            where += "does the depth's head lack a unit, such as 'depth [um]'? "
-            raise ValueError(f"{where}({radii}: {error})") from error
+            unit = "does the depth's head lack a unit, such as 'depth [um]'?"
+            raise ValueError(f"{where}{radii}: {unit}") from error
         raise ValueError(f"{where}{radii}: {error}") from error

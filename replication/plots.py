@@ -269,7 +269,7 @@ def check_plot(path: Path, *inputs: Path | None) -> None:
     if path.suffix.lower() not in ENDINGS:
         raise ValueError(f"{path}: a figure's name ends in {', '.join(ENDINGS[:-1])} or .pdf")
     target = check_target(path)
-    if any(other is not None and other.resolve() == target for other in inputs):
+    if any(source is not None and source.resolve() == target for source in inputs):
         raise ValueError(f"{path} is also read: write the figure to another file")
 
 
@@ -293,7 +293,10 @@ def content(figure: "Figure", ending: str = ".svg") -> bytes:
     return file.getvalue()
 
 
-_TYPESET = {" um": " µm", "kg/m^3": "kg/m³", "rho_": "ρ_", " x ": " × "}
+_TYPESET = {
+    " um": " µm", "kg/m^3": "kg/m³", "rho_p": "ρₚ", "rho_t": "ρₜ", "R_t": "Rₜ", "Y_t": "Yₜ",
+    " x ": " × ",
+}  # fmt: skip
 """How titles are written, which come from the terminal's own lines."""
 
 
@@ -547,7 +550,7 @@ QUANTILES = {0.05: 0.8, 0.5: 1.6, 0.95: 0.8}
 
 _QUANTILES_TITLE = "quantiles of 5, 50 and 95 %"
 
-Results = Mapping[str, Any]
+SweepResults = Mapping[str, Any]
 """Columns of a sweep (SI), inputs and results, each of the shape (cases,)."""
 
 
@@ -602,7 +605,7 @@ def _vertical_input(axes: Mapping[str, int]) -> str:
 
 
 def plot_sweep(
-    results: Results,
+    results: SweepResults,
     axes: Mapping[str, int],
     drawn: bool,
     title: str = "",
@@ -623,7 +626,7 @@ def plot_sweep(
 
 
 def _series(
-    shown: Mapping[str, int], axes: Mapping[str, int], results: Results
+    shown: Mapping[str, int], axes: Mapping[str, int], results: SweepResults
 ) -> list[tuple[str, CurveLook, tuple[int, ...]]]:
     """Return the label, the look and the position of each combination of the values shown.
 
@@ -638,13 +641,13 @@ def _series(
     return series
 
 
-def _only(results: Results, name: str) -> str:
+def _only(results: SweepResults, name: str) -> str:
     """Return an input's value in words if it is the same in all cases, and otherwise nothing."""
     values = results.get(name, [])
     return f"{values[0]:g}" if len(values) and min(values) == max(values) else ""
 
 
-def _listed(name: str, axes: Mapping[str, int], results: Results) -> "npt.NDArray[np.float64]":
+def _listed(name: str, axes: Mapping[str, int], results: SweepResults) -> "npt.NDArray[np.float64]":
     """Return the listed values of an input [SI], one for each of its positions."""
     position = [*axes].index(name)
     along = tuple(slice(None) if k == position else 0 for k in range(len(axes) + 1))
@@ -664,7 +667,7 @@ _RESULTS = {"depth": DEPTH, "normalized_depth": RATIO}
 
 
 def _curves(
-    results: Results, axes: Mapping[str, int], title: str, points: Points | None
+    results: SweepResults, axes: Mapping[str, int], title: str, points: Points | None
 ) -> "Figure":
     """Draw a panel for the depth and one for X/R, with a curve for each value of a second input."""
     across = _across(axes)
@@ -719,7 +722,7 @@ def _is_wide(values: Any) -> bool:
 
 
 def _contours(
-    results: Results, axes: Mapping[str, int], title: str, points: Points | None
+    results: SweepResults, axes: Mapping[str, int], title: str, points: Points | None
 ) -> "Figure":
     """Draw a map of the depth and one of X/R over two inputs, with labelled contours."""
     from matplotlib.colors import BoundaryNorm
@@ -767,7 +770,7 @@ def _levels(values: Any) -> list[float]:
 
 
 def _histograms(
-    results: Results, axes: Mapping[str, int], title: str, points: Points | None
+    results: SweepResults, axes: Mapping[str, int], title: str, points: Points | None
 ) -> "Figure":
     """Draw histograms of the depth and of X/R, with quantiles; one's own depths stand on the axis.
 

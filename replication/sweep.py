@@ -37,7 +37,7 @@ from replication.user_input import (
 )
 from spreadsheets.safely import check_target, draft_of
 
-Floats = npt.NDArray[np.float64]
+FloatArray = npt.NDArray[np.float64]
 
 BLOCK = 65_536
 """Number of cases computed together; also a row group in Parquet, so it determines the bytes."""
@@ -45,7 +45,7 @@ BLOCK = 65_536
 MAX_CASES, MAX_POINTS = 10**12, 10**7
 """The most cases of a plan (days of work for many cores) and points of a range (held in memory)."""
 
-RESULTS = {"depth": "m", "normalized_depth": "1", "beyond_radius": ""}
+CASE_RESULTS = {"depth": "m", "normalized_depth": "1", "beyond_radius": ""}
 """The results of every case, with their SI units (none for a truth value)."""
 
 EXTRAS = {"stop_time": "s", "sheet_depth": "m", "sheet_steps": "1"}
@@ -57,7 +57,7 @@ LEAST_SHARE = 2.0**-53
 """The smallest of the uniform numbers; the largest is 1 minus this."""
 
 
-def uniform(seed: int, stream: int, first: int, count: int) -> Floats:
+def uniform(seed: int, stream: int, first: int, count: int) -> FloatArray:
     """Return uniform random numbers in (0, 1) for the cases from `first` on, shape (count,).
 
     Each depends only on the seed, the stream (one for each input) and the number of the case. The
@@ -81,7 +81,7 @@ class InputValues:
     """
 
     bounds: tuple[float, float]
-    at: Callable[[npt.NDArray[Any]], Floats]
+    at: Callable[[npt.NDArray[Any]], FloatArray]
     count: int | None = None
 
 
@@ -160,11 +160,11 @@ class Plan:
         """The SI unit of each column, inputs before results (none for a truth value)."""
         given = {*self.sources, "velocity", "resistance"}
         inputs = {name: unit for name, unit in INPUTS.items() if name in given}
-        return inputs | RESULTS | {name: EXTRAS[name] for name in self.extras}
+        return inputs | CASE_RESULTS | {name: EXTRAS[name] for name in self.extras}
 
-    def inputs(self, first: int, count: int) -> dict[str, Floats]:
+    def inputs(self, first: int, count: int) -> dict[str, FloatArray]:
         """Return the inputs (SI) of `count` cases from `first` on, in the order of `INPUTS`."""
-        values: dict[str, Floats] = {}
+        values: dict[str, FloatArray] = {}
         position = np.arange(first, first + count) // self.samples
         for name, size in reversed(self.grid.items()):
             position, index = np.divmod(position, size)
@@ -209,7 +209,7 @@ def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
 
 # Reading and checking the TOML file (format: docs/sweeps/README.md)
 
-Table = dict[str, Any]
+TomlTable = dict[str, Any]
 
 
 def read_plan(path: Path) -> Plan:
@@ -237,7 +237,7 @@ def read_plan(path: Path) -> Plan:
         return Plan(sources, by_mass, samples, seed, scheme, extras, digest)
 
 
-def _named(table: Table, key: str, default: str, known: Iterable[str]) -> str:
+def _named(table: TomlTable, key: str, default: str, known: Iterable[str]) -> str:
     """Return the name that a key has, which must be a known one."""
     name, names = table.get(key, default), list(map(str, known))
     if name not in names:
@@ -245,7 +245,7 @@ def _named(table: Table, key: str, default: str, known: Iterable[str]) -> str:
     return str(name)
 
 
-def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
+def _sampling(settings: TomlTable, drawn: bool) -> tuple[int, int]:
     """Return how many cases to draw, and the seed."""
     if not drawn:
         for key in ("samples", "seed"):
@@ -258,7 +258,9 @@ def _sampling(settings: Table, drawn: bool) -> tuple[int, int]:
     return _whole_number("samples", settings["samples"], 1, MAX_CASES), seed
 
 
-def _sources(table: Table, case: Impact) -> tuple[dict[str, InputValues], dict[str, float] | None]:
+def _sources(
+    table: TomlTable, case: Impact
+) -> tuple[dict[str, InputValues], dict[str, float] | None]:
     """Return the sources of all inputs: those of the table in its order, others from the case."""
     check_keys(table, [], INPUTS)
     replaced = ("beta", "flow_stress") if "resistance" in table else ("resistance",)
@@ -297,7 +299,7 @@ def read_source(name: str, value: Any) -> InputValues:
     return InputValues((float(values.min()), float(values.max())), values.take, len(values))
 
 
-def _spaced(table: Table, unit: str) -> Floats:
+def _spaced(table: TomlTable, unit: str) -> FloatArray:
     """Return the values of a range."""
     check_keys(table, ["from", "to", "points"], ["scale"])
     scale = _named(table, "scale", "linear", ("linear", "log"))
@@ -314,7 +316,7 @@ def _spaced(table: Table, unit: str) -> Floats:
     return values.clip(min(first, last), max(first, last))
 
 
-def _drawn(table: Table, unit: str) -> InputValues:
+def _drawn(table: TomlTable, unit: str) -> InputValues:
     """Read a distribution."""
     kind = _named(table, "distribution", "", ("normal", "lognormal", "uniform", "loguniform"))
     log, shape, ends = kind.startswith("log"), ["mean", "deviation"], ["lower", "upper"]
@@ -354,7 +356,7 @@ def _distribution(
         if high - low < 1e-6:
             raise ValueError("less than a millionth of the distribution is between lower and upper")
 
-    def quantile(share: Floats) -> Floats:
+    def quantile(share: FloatArray) -> FloatArray:
         values = low + (high - low) * share
         if normal:  # rounding must not make a share 1
             values = normal.mean + normal.stdev * ndtri(np.minimum(values, 1 - LEAST_SHARE))
@@ -370,7 +372,7 @@ def _distribution(
     return InputValues((least, greatest), quantile)
 
 
-def _by_mass(name: str, table: Table) -> dict[str, float]:
+def _by_mass(name: str, table: TomlTable) -> dict[str, float]:
     """Read the velocity and the mass of the average particle, for Eq. 1."""
     if name != "velocity":
         raise ValueError("only the velocity follows from the mass, by Eq. 1")

@@ -28,17 +28,16 @@ from replication.models.impact import Impact, particle_mass
 from replication.models.sheet import Row, Sheet, deceleration, run
 from replication.text import with_unit
 from spreadsheets import emit
-from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, Value, WorkbookPlan
+from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, ShownValue, WorkbookPlan
 from spreadsheets.sheets import messages, workbook_plan
 from spreadsheets.sheets.audit import AS_PRINTED, LIVE_VERDICTS, OTHERWISE, AuditResult
 from spreadsheets.sheets.case import CaseSheet, prepared_rows
 from spreadsheets.sheets.convergence import LEVELS, NO_ORDER, SMALL, run_inputs
-from spreadsheets.sheets.figure_5 import POINTS
+from spreadsheets.sheets.figure_5 import FIGURE_5_POINTS
 from spreadsheets.sheets.inputs import InputLine, input_lines
 from spreadsheets.sheets.solve import MEASURED
 from spreadsheets.sheets.table_a1 import ABOVE, TABLE_ROWS
-from spreadsheets.sheets.table_a1_check import DIGITS as DECIMALS
-from spreadsheets.sheets.table_a1_check import NO_DIFFERENCE
+from spreadsheets.sheets.table_a1_check import DECIMALS, NO_DIFFERENCE
 from spreadsheets.verify import rounding_bound
 
 
@@ -50,7 +49,7 @@ class Workbook:
     """
 
     plan: WorkbookPlan
-    values: Mapping[str, Value]
+    values: Mapping[str, ShownValue]
     warnings: Sequence[str]
     rounding: float
 
@@ -59,7 +58,7 @@ class Workbook:
         return emit.to_bytes(self.plan, self.values)
 
     @property
-    def cells(self) -> dict[str, dict[str, Value]]:
+    def cells(self) -> dict[str, dict[str, ShownValue]]:
         """What every cell must show, by sheet and address."""
         return emit.cell_values(self.plan, self.values)
 
@@ -374,7 +373,7 @@ def _message(sheet: Sheet) -> str:
         return messages.NO_STEPS
     if sheet.steps == 1:
         return messages.ONE_STEP
-    return messages.COARSE if "coarse" in kinds else messages.DOUBTFUL
+    return messages.STEP_TOO_LONG if "coarse" in kinds else messages.DOUBTFUL
 
 
 def _comparison(page: CaseSheet, values: Tree) -> Tree:
@@ -429,8 +428,8 @@ def _figure_3_curve(page: CaseSheet, sheet: Sheet) -> Tree:
 
 
 def _figure_5(impact: Impact, si: Mapping[str, float]) -> Tree:
-    low, high, last = si["V_from"], si["V_to"], POINTS - 1
-    velocities = [low + (high - low) * point / last for point in range(POINTS)]
+    low, high, last = si["V_from"], si["V_to"], FIGURE_5_POINTS - 1
+    velocities = [low + (high - low) * point / last for point in range(FIGURE_5_POINTS)]
     points = [_without_steps(replace(impact, velocity=velocity)) for velocity in velocities]
     columns = {key: [point[key] for point in points] for key in points[0]}
     return {"message": messages.ALL_POINTS, "velocity": velocities, **columns}
@@ -613,7 +612,7 @@ def _solve(ledger: Ledger, runs: Runs) -> Tree:
     return values | (of_resistance if solved else dict.fromkeys(of_resistance, NOT_AVAILABLE))
 
 
-def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
+def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, ShownValue]]:
     """Yield the values of a tree with their keys.
 
     >>> dict(_keyed({"steps": 85, "low": {"time": [0.0, 2e-10]}}))
@@ -630,8 +629,8 @@ def _keyed(tree: Any, key: str = "") -> Iterator[tuple[str, Value]]:
 
 
 def live_verdicts(
-    ledger: Ledger, plan: WorkbookPlan, values: Mapping[str, Value], audited: AuditResult
-) -> dict[str, Value]:
+    ledger: Ledger, plan: WorkbookPlan, values: Mapping[str, ShownValue], audited: AuditResult
+) -> dict[str, ShownValue]:
     """Return the live verdicts, by key, on the values of the cells that compute claims.
 
     With them come the sheets that show them: the check of Table A-1, the counts, and the results
@@ -699,7 +698,7 @@ def _row_columns(sheet: Sheet, count: int) -> dict[str, list[float | str | None]
     return {name: [*column, *blank] for name, column in columns.items()}
 
 
-def _judged(value: Value, interval: Interval) -> Tree:
+def _judged(value: ShownValue, interval: Interval) -> Tree:
     """Return the live verdict on a double, and what it rests on, which is #N/A without a number."""
     conditions = _compared(Fraction(value if isinstance(value, float) else 0.0), interval)
     if not isinstance(value, float):
@@ -727,7 +726,7 @@ def _compared(number: Fraction, interval: Interval) -> dict[str, bool]:
     return conditions
 
 
-def _difference(value: Value, printed: Printed, *, exact: bool) -> Value:
+def _difference(value: ShownValue, printed: Printed, *, exact: bool) -> ShownValue:
     """Return computed minus printed; in units of the last printed digit unless that is exact."""
     if not isinstance(value, float):
         return NO_DIFFERENCE

@@ -11,23 +11,25 @@ cells, nor formats, rows and columns.
 import math
 import re
 import zipfile
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from errno import EEXIST
-from functools import cache, partial
+from functools import cache
 from hashlib import sha256
 from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import ROW_HEIGHT, Cell, Chart, SheetPlan, Value, WorkbookPlan
+from spreadsheets.plan import ROW_HEIGHT, Cell, Chart, SheetPlan, ShownValue, WorkbookPlan
 from spreadsheets.safely import UNREADABLE, check_target
 from spreadsheets.styles import CURVES, RULES, STYLES
 
 _ARIAL = {"font_name": "Arial", "font_size": 10}
 
 
-def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, dict[str, Value]]:
+def cell_values(
+    plan: WorkbookPlan, values: Mapping[str, ShownValue]
+) -> dict[str, dict[str, ShownValue]]:
     """Return what every cell of the workbook shows, texts included, by sheet and address.
 
     Raises ValueError unless `values` has exactly the keys of the plan and every number is finite.
@@ -38,7 +40,7 @@ def cell_values(plan: WorkbookPlan, values: Mapping[str, Value]) -> dict[str, di
     ):
         if keys:
             raise ValueError(f"{len(keys)} {problem} value(s), the first is {min(keys)!r}")
-    shown: dict[str, dict[str, Value]] = {sheet.name: {} for sheet in plan.sheets}
+    shown: dict[str, dict[str, ShownValue]] = {sheet.name: {} for sheet in plan.sheets}
     for (sheet, address), cell in plan.cells.items():
         constant = cell.text if cell.number is None else cell.number
         value = values[cell.key] if cell.key else constant
@@ -118,7 +120,7 @@ def _zipped(parts: Mapping[str, bytes]) -> bytes:
     return buffer.getvalue()
 
 
-def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
+def to_bytes(plan: WorkbookPlan, values: Mapping[str, ShownValue]) -> bytes:
     """Return the bytes of the .xlsx file. Raises ValueError as `cell_values` does."""
     import xlsxwriter
 
@@ -143,7 +145,6 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     book.set_custom_property(_SEAL, _UNSEALED)
     for sheet in plan.sheets:
         page = book.add_worksheet(sheet.name)
-        page._prepare_formula = partial(_stored, page._prepare_formula)
         _set_up(page, sheet, unlocked)
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.shown, cell.wrap, bool(cell.formula))
@@ -170,32 +171,6 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, Value]) -> bytes:
     parts = _archive_parts(file.getvalue())
     corrected = {name: _corrected(name, part) for name, part in parts.items()}
     return _zipped(_sealed(corrected))
-
-
-_FUNCTION = re.compile(r"[\w.]+(?=\()")
-
-
-def _stored(prepare: Callable[[str], str], formula: str) -> str:
-    """Return a formula as it is stored: without "=", and with the prefixes of newer functions.
-
-    XlsxWriter's own method, `prepare`, looks for thirty functions in each formula; for our
-    thousands of formulas that takes a sixth of an audit. So it is only asked where one occurs.
-    """
-    if formula.endswith("}") or any(map(_is_newer, _FUNCTION.findall(formula))):
-        return prepare(formula)
-    return formula.removeprefix("=")
-
-
-@cache
-def _is_newer(function: str) -> bool:
-    """Return whether XlsxWriter stores this function with a prefix.
-
-    >>> _is_newer("XLOOKUP"), _is_newer("LOOKUP")
-    (True, False)
-    """
-    from xlsxwriter.worksheet import Worksheet
-
-    return bool(Worksheet()._prepare_formula(f"{function}(") != f"{function}(")
 
 
 def _corrected(name: str, part: bytes) -> bytes:
@@ -246,7 +221,7 @@ def _set_up(page: Any, sheet: SheetPlan, unlocked: Any) -> None:
     page.ignore_errors(dict.fromkeys(kinds, "A1:XFD1048576"))
 
 
-def _write_cell(page: Any, address: str, cell: Cell, value: Value, style: Any) -> None:
+def _write_cell(page: Any, address: str, cell: Cell, value: ShownValue, style: Any) -> None:
     """Write one cell; for an input, also what may be typed into it."""
     if cell.formula:
         page.write_formula(address, cell.formula, style, value)
@@ -288,8 +263,8 @@ _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 
 
 def _draw(
-    book: Any, page: Any, name: str, chart: Chart, shown: Mapping[str, Value],
-    values: Mapping[str, Value],
+    book: Any, page: Any, name: str, chart: Chart, shown: Mapping[str, ShownValue],
+    values: Mapping[str, ShownValue],
 ) -> None:  # fmt: skip
     """Draw a chart of the cells of the sheet `name` on a page; `shown` is what they show."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
@@ -318,7 +293,7 @@ def _draw(
     page.insert_chart(chart.at, drawn, {"description": chart.describe(values)})
 
 
-def _charted(cells: str, shown: Mapping[str, Value]) -> list[float | None]:
+def _charted(cells: str, shown: Mapping[str, ShownValue]) -> list[float | None]:
     """Return the numbers of a range in one column; None stands for a cell without a number."""
     (column, first), (_, last) = (re.findall(r"[A-Z]+|\d+", end) for end in cells.split(":"))
     in_cells = (shown.get(f"{column}{row}") for row in range(int(first), int(last) + 1))

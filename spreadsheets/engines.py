@@ -2,7 +2,7 @@
 
     IronCalc().recalculate(Path("workbook.xlsx"))["Sheet1"]["B7"]
 
-An engine recalculates every formula of a workbook and returns the `Values`. Two engines are
+An engine recalculates every formula of a workbook and returns the `SheetValues`. Two engines are
 installed with pip, two with the system. Their libraries are imported only when an engine is used.
 """
 
@@ -26,9 +26,9 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from spreadsheets.plan import Value
+from spreadsheets.plan import ShownValue
 
-Values = dict[str, dict[str, Value]]
+SheetValues = dict[str, dict[str, ShownValue]]
 """Worksheet name -> address such as "B7" -> value.
 
 Blank cells, formulas that give the empty string, and sheets without values are left out. A number
@@ -36,7 +36,7 @@ is a float, as is a date (its serial number). A boolean is a bool, but 1.0 or 0.
 An error is its text, such as "#VALUE!", or "Err:502" from LibreOffice.
 """
 
-Cell = tuple[str, str, Value | None]
+AddressedValue = tuple[str, str, ShownValue | None]
 """Worksheet name, address and value; None for a blank cell."""
 
 TIME_LIMIT_S = 120
@@ -66,25 +66,25 @@ class Engine(ABC):
     def version(self) -> str:
         """Return the version of the engine; called only if it is not missing."""
 
-    def _cells(self, path: Path) -> Iterator[Cell]:
+    def _cells(self, path: Path) -> Iterator[AddressedValue]:
         """Yield the recalculated cells of a workbook; blank cells may be left out.
 
         An engine that takes several workbooks at once overrides `_cells_of_many` instead.
         """
         raise NotImplementedError
 
-    def _cells_of_many(self, paths: Sequence[Path]) -> Iterator[Iterator[Cell]]:
+    def _cells_of_many(self, paths: Sequence[Path]) -> Iterator[Iterator[AddressedValue]]:
         return map(self._cells, paths)
 
-    def recalculate(self, path: Path) -> Values:
+    def recalculate(self, path: Path) -> SheetValues:
         """Recalculate every formula of an .xlsx file; the file itself is not changed."""
         return self.recalculate_many([path])[0]
 
-    def recalculate_many(self, paths: Sequence[Path]) -> list[Values]:
+    def recalculate_many(self, paths: Sequence[Path]) -> list[SheetValues]:
         """Recalculate every formula of several .xlsx files; return the values of each, in order."""
         if (reason := self.missing()) is not None:
             raise EngineError(self.name, reason)
-        recalculated: list[Values] = []
+        recalculated: list[SheetValues] = []
         for cells in self._cells_of_many(paths):
             recalculated.append({})
             for sheet, place, value in cells:
@@ -131,7 +131,7 @@ class IronCalc(Engine):
     def version(self) -> str:
         return version(self.name)
 
-    def _cells(self, path: Path) -> Iterator[Cell]:
+    def _cells(self, path: Path) -> Iterator[AddressedValue]:
         import ironcalc
 
         try:
@@ -149,7 +149,7 @@ class Formualizer(IronCalc):
 
     name = "formualizer"
 
-    def _cells(self, path: Path) -> Iterator[Cell]:
+    def _cells(self, path: Path) -> Iterator[AddressedValue]:
         import formualizer
         from openpyxl.utils.cell import coordinate_to_tuple
 
@@ -213,7 +213,7 @@ class LibreOffice(Engine):
     def version(self) -> str:
         return self._version_of(str(office()))
 
-    def _cells_of_many(self, paths: Sequence[Path]) -> Iterator[Iterator[Cell]]:
+    def _cells_of_many(self, paths: Sequence[Path]) -> Iterator[Iterator[AddressedValue]]:
         soffice, script = str(office()), str(Path(__file__).with_name("uno_script.py"))
         with TemporaryDirectory(prefix="coldspray-") as folder:
             # LibreOffice opens copies, since it puts a lock file beside each file that it opens.
@@ -265,7 +265,7 @@ class Gnumeric(Engine):
     def version(self) -> str:
         return self._version_of("ssconvert")
 
-    def _cells(self, path: Path) -> Iterator[Cell]:
+    def _cells(self, path: Path) -> Iterator[AddressedValue]:
         from openpyxl import load_workbook
         from openpyxl.utils.datetime import to_excel
 

@@ -45,7 +45,7 @@ from spreadsheets.scalars import (
     scalar,
 )
 
-MAX_DEPTH = 64
+MAX_NESTING = 64
 """Levels of nesting in a formula, as in Excel."""
 MAX_SIZE = 2_000
 """Operations in one formula, with those of the names that it uses."""
@@ -279,8 +279,8 @@ class _Parser:
 
     def expression(self, least: int) -> Run:
         self.depth += 1
-        if self.depth > MAX_DEPTH:
-            raise NotComputedError(f"it is nested more than {MAX_DEPTH} levels deep")
+        if self.depth > MAX_NESTING:
+            raise NotComputedError(f"it is nested more than {MAX_NESTING} levels deep")
         left = self.prefix()
         while True:
             kind, sign = self.tokens[self.at]

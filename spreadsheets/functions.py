@@ -25,7 +25,7 @@ from spreadsheets.scalars import (
 )
 
 Arguments = Sequence[Run | None]
-Values = list[Scalar]
+Scalars = list[Scalar]
 
 
 def area_of(value: object) -> Area | None:
@@ -291,7 +291,7 @@ def _subtotal(name: str, arguments: Arguments) -> Run:
     return run
 
 
-def _shown_cells(area: Area | None, at: Site, *, without_hidden: bool) -> Values:
+def _shown_cells(area: Area | None, at: Site, *, without_hidden: bool) -> Scalars:
     """The values of a range without those of other subtotals, and without hidden rows."""
     if area is None:
         raise NotComputedError("it uses SUBTOTAL of more than ranges")
@@ -558,7 +558,7 @@ def _some(area: Area, at: Site) -> Iterator[tuple[str, int, int]]:
     return used.places()
 
 
-def _line_values(area: Area, at: Site) -> Values:
+def _line_values(area: Area, at: Site) -> Scalars:
     """The values of one row or column, as far as the sheet uses it."""
     if area.top != area.bottom and area.left != area.right:
         raise CellError("#N/A")
@@ -578,7 +578,7 @@ def _searched(arguments: Arguments, at: Site) -> tuple[Scalar, Area]:
     return wanted, _area_argument(arguments[1], at)
 
 
-def _found(wanted: Scalar, values: Values, kind: int) -> int:
+def _found(wanted: Scalar, values: Scalars, kind: int) -> int:
     """Where a value stands: exactly (0), the last not above it (1), the last not below it (-1)."""
     if kind == 0:
         for index, value in enumerate(values):
@@ -708,7 +708,7 @@ def _ranges_with_criteria(
     return result, list(zip(rest[::2], rest[1::2], strict=False))
 
 
-def _meeting(areas: Sequence[Area], wanted: Values, source: Area, at: Site) -> Values:
+def _meeting(areas: Sequence[Area], wanted: Scalars, source: Area, at: Site) -> Scalars:
     """The values of a range in whose places all ranges meet their criteria."""
     used = at.evaluator.used(areas[0])
     height, width = used.bottom - used.top + 1, used.right - used.left + 1

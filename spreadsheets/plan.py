@@ -33,10 +33,10 @@ YES_OR_NO = '"yes";;"no"'
 HOME = "Overview"
 """The first sheet; every other sheet has a link back to it."""
 
-Value = float | str | bool
+ShownValue = float | str | bool
 """What a cell shows. A number is a float; a formula that leaves its cell blank gives ""."""
 
-Place = tuple[str, str]
+CellPlace = tuple[str, str]
 """Sheet name and address: ("Crater", "C5"). A column is a single letter on every sheet."""
 
 
@@ -61,7 +61,7 @@ class Cell(NamedTuple):
     unit: str = "1"
     claim: str = ""
     like: str = ""
-    link: Place | None = None
+    link: CellPlace | None = None
     limits: tuple[float, float] | None = None
     choices: Sequence[str] = ()
     wrap: bool = False
@@ -114,7 +114,7 @@ class ChartCurve(NamedTuple):
     beta: "3" or "5", of the report's case that it shows or is compared with: it sets the look.
     """
 
-    name: Place
+    name: CellPlace
     x: str
     y: str
     beta: str
@@ -134,7 +134,7 @@ class Chart:
     y_title: str
     size: tuple[int, int]
     curves: Sequence[ChartCurve]
-    describe: Callable[[Mapping[str, Value]], str]
+    describe: Callable[[Mapping[str, ShownValue]], str]
     logarithmic: bool = False
     sheet: str = ""
 
@@ -298,7 +298,7 @@ class WorkbookPlan:
     properties: Mapping[str, str] = field(default_factory=dict)
 
     @cached_property
-    def cells(self) -> Mapping[Place, Cell]:
+    def cells(self) -> Mapping[CellPlace, Cell]:
         """Every cell by its place, sheet by sheet."""
         return {
             (sheet.name, address): cell
@@ -307,12 +307,12 @@ class WorkbookPlan:
         }
 
     @cached_property
-    def where(self) -> Mapping[str, Place]:
+    def where(self) -> Mapping[str, CellPlace]:
         """The place of the cell with each key."""
         return {cell.key: place for place, cell in self.cells.items() if cell.key}
 
     @cached_property
-    def claims(self) -> Mapping[str, Place]:
+    def claims(self) -> Mapping[str, CellPlace]:
         """The place of the cell that computes a claim, by the claim's id."""
         return {
             claim: (sheet.name, address)
@@ -320,7 +320,7 @@ class WorkbookPlan:
             for claim, address in sheet.claims.items()
         }
 
-    def references(self, place: Place) -> Iterator[Place]:
+    def references(self, place: CellPlace) -> Iterator[CellPlace]:
         """Yield the cells that the formula of a cell refers to: by address, range or name."""
         own_sheet, text = place[0], re.sub(r'"[^"]*"', "", self.cells[place].formula)
         for match in _REFERENCE.finditer(text):
@@ -332,15 +332,15 @@ class WorkbookPlan:
                     yield match["sheet"] or own_sheet, f"{match['column']}{row}"
 
     @cached_property
-    def readers(self) -> Mapping[Place, Sequence[Place]]:
+    def readers(self) -> Mapping[CellPlace, Sequence[CellPlace]]:
         """The cells whose formulas refer to a cell, by its place."""
-        readers: dict[Place, list[Place]] = {}
+        readers: dict[CellPlace, list[CellPlace]] = {}
         for place, cell in self.cells.items():
             for reference in self.references(place) if cell.formula else ():
                 readers.setdefault(reference, []).append(place)
         return readers
 
-    def dependents(self, sources: Collection[Place]) -> set[Place]:
+    def dependents(self, sources: Collection[CellPlace]) -> set[CellPlace]:
         """Return these cells, and all whose formulas depend on one of them, however indirectly."""
         reached, waiting = set(sources), list(sources)
         while waiting:

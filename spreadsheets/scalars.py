@@ -174,8 +174,8 @@ def compared(sign: str, left: Scalar, right: Scalar) -> bool:
     blank: dict[type, Scalar] = {str: "", bool: False}
     left = blank.get(type(right), 0.0) if left is None else left
     right = blank.get(type(left), 0.0) if right is None else right
-    (kind, a), (other, b) = _sort_key(left), _sort_key(right)
-    order = (kind > other) - (kind < other)
+    (left_kind, a), (right_kind, b) = _sort_key(left), _sort_key(right)
+    order = (left_kind > right_kind) - (left_kind < right_kind)
     if not order and isinstance(a, float) and isinstance(b, float):
         order = 0 if math.isclose(a, b, rel_tol=1e-15) else (a > b) - (a < b)
     elif not order:

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from spreadsheets.engines import Engine, EngineError, Values
-from spreadsheets.plan import Place, Value, WorkbookPlan
+from spreadsheets.engines import Engine, EngineError, SheetValues
+from spreadsheets.plan import CellPlace, ShownValue, WorkbookPlan
 
 
 def repairs_wrong_value(engine: Engine) -> bool:
@@ -25,7 +25,7 @@ def repairs_wrong_value(engine: Engine) -> bool:
         return engine.recalculate(path).get("planted", {}).get("A2") == 42
 
 
-def inexact(plan: WorkbookPlan) -> set[Place]:
+def inexact(plan: WorkbookPlan) -> set[CellPlace]:
     """Return the cells whose value depends on LN, EXP, SIN, ASIN, a cube root or ROUND.
 
     Their last digits depend on the program; all other values are the same double everywhere.
@@ -50,12 +50,14 @@ class CellDifference:
 
     sheet: str
     cell: str
-    expected: Value | None
-    found: Value | None
+    expected: ShownValue | None
+    found: ShownValue | None
 
 
 def compare(
-    expected: Values, recalculated: Values, tolerances: Mapping[Place, float] | None = None
+    expected: SheetValues,
+    recalculated: SheetValues,
+    tolerances: Mapping[CellPlace, float] | None = None,
 ) -> list[CellDifference]:
     """Return the cells, of either map, whose values differ, in the order of `expected`.
 
@@ -80,8 +82,8 @@ def compare(
 
 
 def tolerances(
-    plan: WorkbookPlan, expected: Values, long_doubles: float = 0.0
-) -> dict[Place, float]:
+    plan: WorkbookPlan, expected: SheetValues, long_doubles: float = 0.0
+) -> dict[CellPlace, float]:
     """Return the allowed absolute error of every formula that gives a number; zero for most.
 
     long_doubles: for an engine that computes in long doubles, the bound on the rounding errors of
@@ -154,7 +156,7 @@ class EngineCheck:
 
 
 def verify(
-    path: Path, plan: WorkbookPlan, expected: Values, engine: Engine, *, long_doubles: float
+    path: Path, plan: WorkbookPlan, expected: SheetValues, engine: Engine, *, long_doubles: float
 ) -> EngineCheck:
     """Recalculate a file with an engine and compare every cell, within its tolerance.
 

@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Callable
 from contextlib import chdir
 from fractions import Fraction
+from math import ceil
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree as ET
@@ -20,11 +21,12 @@ from xml.etree import ElementTree as ET
 import pytest
 from running import coldspray
 
+from reference.scheme import Scheme
 from replication import BETA_3, BETA_5, final_depth, run, stop_time
 from replication.audit.record import Record
 from replication.power import measured_rates
 from replication.report.document import audit_document
-from replication.report.words import MEANINGS
+from replication.report.words import MEANINGS, TAKEN_EXACTLY, counted_briefly
 from replication.text import json_text
 
 ROOT = Path(__file__).parent.parent
@@ -112,8 +114,8 @@ def test_verdicts_are_counted_as_the_audit_counts_them(record: Record) -> None:
     assert {verdict: meaning for verdict, _, meaning in table} == MEANINGS
     counts, text = record.counts, " ".join(README.split())
     assert (
-        f"**{counts.independent} numbers could have failed by themselves and come out as printed; "
-        f"{counts.failing} do not follow from what the report says.**"
+        f"**{counted_briefly(counts)}** For one of these {counts.independent} to fail, any of "
+        "several printed numbers, or the equation that computes it, would have to be wrong."
     ) in text
     assert (
         f"The other {counts.reproduced - counts.independent} that are reproduced tell less: "
@@ -147,7 +149,10 @@ def test_the_top_says_what_the_headline_rests_on(record: Record) -> None:
     mass = record.claim(inferred.entry.mass).claim.shown
     assert f"inferred from {CARDINALS[len(inferred.evidence)]} cells of Table A-1" in top
     assert inferred.assumed > inferred.with_printed_mass[1]
-    assert f"({mass} kg, with which {inferred.assumed:.0f} kg/m³ is impossible)" in top
+    impossible = f"{TAKEN_EXACTLY}, {inferred.assumed:.0f} kg/m³ is impossible"
+    assert f"({mass} kg, with which, {impossible})" in top
+    most = f"no more than {ceil(inferred.with_printed_mass[1])} kg/m³ is possible"
+    assert f"With the mass as printed, {TAKEN_EXACTLY}, {most}," in " ".join(README.split())
 
 
 def test_the_slips_are_those_of_the_family(record: Record) -> None:
@@ -182,6 +187,19 @@ def test_times_are_those_of_the_whole_table() -> None:
     (block,) = re.findall(r"```text\n(.*?)```", README, re.DOTALL)
     whole = (ROOT / "docs" / "bench" / "bench.txt").read_text("utf-8").splitlines()
     assert {line.rstrip() for line in block.splitlines()} <= {line.rstrip() for line in whole}
+
+
+def test_the_changelog_has_what_the_audit_computes(record: Record) -> None:
+    """X/R by Frank and Zook, as printed and as derived, and the densities, to the last digit."""
+    text = " ".join((ROOT / "CHANGELOG.md").read_text("utf-8").split())
+    pair = [record.claim(f"frank-zook-{target}") for target in ("rha", "stainless")]
+    for reading in (0, 1):
+        shown = [f"{claim.assessment.readings[reading].computed:.5f}" for claim in pair]
+        assert f" | {shown[0]} | {shown[1]} | " in text
+    (density,) = [i for i in record.inferred if i.scheme is Scheme.PUBLISHED]
+    spheres, printed = density.interval, density.with_printed_mass
+    assert "from {:.3f} to {:.3f} kg/m³ with the mass".format(*map(float, spheres)) in text
+    assert "from {:.3f} to {:.3f} with the printed mass".format(*map(float, printed)) in text
 
 
 def test_the_changelog_has_the_depths_and_times_of_the_models() -> None:

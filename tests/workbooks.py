@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 from openpyxl import load_workbook
 
-from spreadsheets.engines import ENGINES, Cell, Engine, EngineError
+from spreadsheets.engines import ENGINES, AddressedValue, Engine, EngineError
 
 
 def stored(path: Path, *, formulas: bool = False) -> dict[str, dict[str, Any]]:
@@ -71,7 +71,7 @@ class Fake(Engine):
     long_doubles: bool = False
     reason: str | None = None
     failure: str = ""
-    surplus: tuple[Cell, ...] = ()
+    surplus: tuple[AddressedValue, ...] = ()
     name = "fake"
 
     def missing(self) -> str | None:
@@ -80,7 +80,7 @@ class Fake(Engine):
     def version(self) -> str:
         return "1.0"
 
-    def _cells(self, path: Path) -> Iterator[Cell]:
+    def _cells(self, path: Path) -> Iterator[AddressedValue]:
         if self.failure and not path.name.startswith("planted"):
             raise EngineError(self.name, self.failure)
         for sheet, cells in BY_NAME["ironcalc"].recalculate(path).items():

@@ -79,6 +79,8 @@ class Audit(Results):
         computed = [(c.as_printed.reference, c.claim.unit) for c in reproduced if c.as_printed]
         values = {float(Fraction(digits) * to_si(unit)) for digits, unit in computed}
         standings = Counter(claim.assessment.standing for claim in reproduced)
+        open_ended = [c for c in reproduced if c.claim.bound is not None]
+        bounds = sum(c.assessment.standing is Standing.INDEPENDENT for c in open_ended)
         remarks = sum(record.claim.kind == "remark" for record in claims)
         return r.Counts(
             entries=len(claims),
@@ -89,6 +91,7 @@ class Audit(Results):
             computed=len(computed),
             values=len(values),
             independent=standings[Standing.INDEPENDENT],
+            bounds=bounds,
             evidence=standings[Standing.EVIDENCE],
             by_definition=standings[Standing.BY_DEFINITION],
             repeats=standings[Standing.REPEATS],

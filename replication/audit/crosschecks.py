@@ -14,17 +14,20 @@ import msgspec
 from reference.ledger import Ledger, claims_of_case
 from reference.printed import parse
 from reference.units import to_si
-from replication.audit.assessment import Verdict
 from replication.models.impact import Impact
 from replication.models.motion import stop_time
 from replication.text import number
 
 
 class CrossCheck(msgspec.Struct, frozen=True):
-    """The outcome of a comparison, and what was compared."""
+    """Whether a number agrees with what it is compared with, and what that is.
 
-    verdict: Verdict
+    with_sources: it is compared with what public sources print, not with the report.
+    """
+
+    agrees: bool
     says: str
+    with_sources: bool = False
 
 
 def outlier_volume(ledger: Ledger) -> CrossCheck:
@@ -32,12 +35,11 @@ def outlier_volume(ledger: Ledger) -> CrossCheck:
     diameter = cbrt(6 * float(ledger.value("outlier-volume")) / pi)
     least, greatest = (ledger.claims[f"particle-size-{end}"] for end in ("least", "greatest"))
     inside = float(least.value) <= diameter <= float(greatest.value)
-    verdict = Verdict.CONSISTENT if inside else Verdict.INCONSISTENT
     says = (
         f"A sphere of that volume is {number(diameter * 1e6, 3)} µm wide; the particles of the "
         f"data fall between {least.shown} and {greatest.shown} µm."
     )
-    return CrossCheck(verdict, says)
+    return CrossCheck(inside, says)
 
 
 def autodyne_time(ledger: Ledger) -> CrossCheck:
@@ -50,13 +52,12 @@ def autodyne_time(ledger: Ledger) -> CrossCheck:
     entries = claims_of_case(5)
     impact = Impact(**{name: float(ledger.value(claim)) for name, claim in entries.items()})
     stop = stop_time(**impact.motion)
-    verdict = Verdict.CONSISTENT if scaled > stop else Verdict.INCONSISTENT
     says = (
         f"Scaled to a particle of {ledger.claims['mean-diameter'].shown} µm it is "
         f"{number(scaled * 1e9, 2)} ns, {number(scaled / stop, 2)} times the time in which the "
         "model's particle stops (beta = 5): by the model the depth is final by then."
     )
-    return CrossCheck(verdict, says)
+    return CrossCheck(scaled > stop, says)
 
 
 def brinell_factors(ledger: Ledger) -> tuple[Fraction, list[Fraction]]:
@@ -72,13 +73,12 @@ def brinell_ratio(ledger: Ledger) -> CrossCheck:
     of_304, rules = brinell_factors(ledger)
     three = parse("3").interval()
     agrees = all(three.contains(Fraction(ratio)) for ratio in rules)
-    verdict = Verdict.AGREES if agrees else Verdict.DIFFERS
     says = (
         f"By the rules that public sources print for steels it is {number(min(rules), 3)} to "
         f"{number(max(rules), 3)}, which rounds to three. The hardness and the strength on a sheet "
         f"of 304 give {number(of_304, 3)}, which does not: the rule fits annealed 304 less well."
     )
-    return CrossCheck(verdict, says)
+    return CrossCheck(agrees, says, with_sources=True)
 
 
 CROSS_CHECKS: dict[str, Callable[[Ledger], CrossCheck]] = {

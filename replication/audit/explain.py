@@ -21,7 +21,7 @@ from replication.audit.ranking import forms_beside, rank
 from replication.audit.record import BackSolved, Proof, Repair
 from replication.audit.verdict import (
     Judge,
-    Values,
+    Replacements,
     agrees,
     disagreeing,
     follows,
@@ -63,7 +63,7 @@ class Explainer:
         self._forms = cache(partial(forms_beside, judge.ledger))
 
     @cached_property
-    def _alternatives(self) -> list[Values]:
+    def _alternatives(self) -> list[Replacements]:
         """The values of the inferred inputs to try: the nominal and the assumed ones."""
         return [{}, self.judge.assumed] if self.judge.moved else [{}]
 

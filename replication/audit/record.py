@@ -356,8 +356,9 @@ class Counts(_Part, frozen=True):
     Of the `reproduced` numbers, `constants` stand in equations and `computed` are calculated
     from their inputs; `values` counts the different values among these, each once however often
     it is printed. Of the computed ones, only the `independent` ones could have failed by
-    themselves; an input was inferred from the `evidence`, and the others are true
-    `by_definition` of printed numbers, or `repeats` of an earlier one (see `Standing`).
+    themselves, and `bounds` of these are open on one side; an input was inferred from the
+    `evidence`, and the others are true `by_definition` of printed numbers, or `repeats` of an
+    earlier one (see `Standing`).
     `failing` claims and `equations_failing` contradict the rest of the report.
     """
 
@@ -369,6 +370,7 @@ class Counts(_Part, frozen=True):
     computed: int
     values: int
     independent: int
+    bounds: int
     evidence: int
     by_definition: int
     repeats: int

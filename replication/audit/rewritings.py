@@ -40,7 +40,7 @@ def number_rewritings(text: str, *, spaces: bool = True) -> Iterator[tuple[str, 
     >>> [text for text, kind in number_rewritings(r"\frac{1}{2}", spaces=False)]
     ['1/2']
     """
-    yield from ((other, "power of ten") for other in _powers_of_ten(text))
+    yield from ((rewriting, "power of ten") for rewriting in _powers_of_ten(text))
     if "-" in text and not text[0].isalpha():
         yield text.replace("-", "\N{MINUS SIGN}"), "minus sign"
     if re.fullmatch(r"~? ?0\.\d+", text):
@@ -49,7 +49,7 @@ def number_rewritings(text: str, *, spaces: bool = True) -> Iterator[tuple[str, 
         yield text.replace(".", "·"), "raised point"
     if re.fullmatch(r"\d{4,}", text):
         yield f"{int(text):,}", "thousands"
-    yield from ((other, "fraction") for other in _fractions(text))
+    yield from ((rewriting, "fraction") for rewriting in _fractions(text))
     if text[0].isalpha():
         yield text[0].swapcase() + text[1:], "capital"
     if spaces:

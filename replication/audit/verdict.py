@@ -103,7 +103,11 @@ def _cross_checked(ledger: Ledger, name: str) -> Assessment:
         checked = CROSS_CHECKS[name](ledger)
     except (ArithmeticError, ValueError) as error:  # an input has no meaning
         return Assessment(Verdict.INCONSISTENT, no_value=str(error))
-    return Assessment(checked.verdict, compared=checked.says)
+    if checked.with_sources:
+        verdict = Verdict.AGREES if checked.agrees else Verdict.DIFFERS
+    else:
+        verdict = Verdict.CONSISTENT if checked.agrees else Verdict.INCONSISTENT
+    return Assessment(verdict, compared=checked.says)
 
 
 def is_contradicted(ledger: Ledger, name: str) -> bool:
@@ -232,12 +236,12 @@ class Judge:
 
     def _judgements(self, claim: Claim, reading: str) -> Iterator[Judgement]:
         """Yield a judgement for every convention that may matter, the usual first; ends in SI."""
-        printed = self.inputs_as_printed(claim)
+        box = self.inputs_as_printed(claim)
         for scheme in Scheme if claim.by_scheme else (Scheme.PUBLISHED,):
             inferred = {e: self.inference(e, scheme=scheme).inner.ends for e in claim.inferred}
-            at_print = admitted = self._range(claim, reading, scheme, printed)
+            at_print = admitted = self._range(claim, reading, scheme, box)
             if inferred:
-                admitted = self._range(claim, reading, scheme, {**printed, **inferred})
+                admitted = self._range(claim, reading, scheme, {**box, **inferred})
             for rounding in Rounding:
                 convention, target = Convention(rounding, scheme=scheme), claim.target(rounding)
                 if target.excludes(*at_print):
@@ -400,11 +404,11 @@ def _input_conventions(ledger: Ledger, claim: Claim, usual: Convention) -> list[
 _CLOSE = Fraction(1, 10**9)
 """The largest relative difference at which a double agrees with an exact number, such as 2/3."""
 
-Values = Mapping[str, Fraction]
+Replacements = Mapping[str, Fraction]
 """Values of some entries (SI) in place of the printed ones."""
 
 
-def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> bool:
+def agrees(ledger: Ledger, claim: Claim, changed: Replacements, reading: str = "") -> bool:
     """Return whether a claim agrees with its computation, in doubles, some entries changed."""
     if claim.restates:
         return is_consistent(ledger, claim)
@@ -419,7 +423,7 @@ def agrees(ledger: Ledger, claim: Claim, changed: Values, reading: str = "") -> 
     return target.contains(value)
 
 
-def disagreeing(ledger: Ledger, names: Iterable[str], changed: Values) -> set[str]:
+def disagreeing(ledger: Ledger, names: Iterable[str], changed: Replacements) -> set[str]:
     """Return which of the claims disagree with their computations, some entries changed."""
     claims = (ledger.claims[name] for name in names)
     return {c.id for c in claims if c.computation is not None and not agrees(ledger, c, changed)}
@@ -480,7 +484,7 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, JudgedConsta
     definition or a repeated equation the printed value is consistent instead. In an equation that
     is taken over it is not checkable if only the quoted law itself decides it.
     """
-    printed = {claim: ledger.value(claim) for claim in ledger.constants_of(name)}
+    as_printed = {claim: ledger.value(claim) for claim in ledger.constants_of(name)}
     kind = ledger.equations[name].kind
 
     def passing(
@@ -490,24 +494,26 @@ def _constants(ledger: Ledger, name: str, holds: bool) -> dict[str, JudgedConsta
 
         Without `quoted`, checks that quote the law itself are left out.
         """
-        tried = sorted({*_USUAL, *(printed[claim] * factor for factor in (1, 2, Fraction(1, 2)))})
+        tried = sorted(
+            {*_USUAL, *(as_printed[claim] * factor for factor in (1, 2, Fraction(1, 2)))}
+        )
         texts = {value: ledger.printed_text(name, {**corrected, claim: value}) for value in tried}
         checks = {v: _checks(ledger.misprint(name, text), name) for v, text in texts.items()}
         return [
             v for v, own in checks.items() if all(c.holds for c in own if quoted or not c.quotes)
         ]
 
-    needed = {claim: passing(claim, {}) for claim in printed}
+    needed = {claim: passing(claim, {}) for claim in as_printed}
     repairs = [] if holds else [claim for claim, values in needed.items() if values]
     if len(repairs) == 1:
         # The other constants are judged with this one corrected.
         (culprit,) = repairs
         corrected = {culprit: needed[culprit][0]}
-        needed |= {claim: passing(claim, corrected) for claim in printed if claim != culprit}
+        needed |= {claim: passing(claim, corrected) for claim in as_printed if claim != culprit}
     constants = {}
     for claim, values in needed.items():
         verdict = Verdict.NOT_REPRODUCED if values else Verdict.UNDECIDED
-        if printed[claim] in values:
+        if as_printed[claim] in values:
             decided = len(values) == 1
             if kind == "taken over":
                 decided = len(passing(claim, {}, quoted=False)) == 1

@@ -129,10 +129,10 @@ def _reason(judge: Judge, claim: Claim, judgement: Judgement) -> str:
 def scope(claim: Claim, reading: Reading) -> str:
     """Say under which conventions the verdict holds, and under which it becomes another one."""
     subject = "As printed, the" if claim.readings and not reading.name else "The"
-    holds = f"{subject} verdict holds under {_conditions_met(claim, reading)}"
+    sentence = f"{subject} verdict holds under {_conditions_met(claim, reading)}"
     if exceptions := _exceptions(claim, reading):
-        return f"{holds}; {exceptions}."
-    return f"{holds}."
+        return f"{sentence}; {exceptions}."
+    return f"{sentence}."
 
 
 def _conditions_met(claim: Claim, reading: Reading) -> str:

@@ -27,7 +27,7 @@ from reference.arithmetic import Number
 from reference.motion import Trajectory
 from reference.scheme import Scheme
 from reference.signals import postponed_signals
-from replication.bench.peers import SOLVERS, Function, bare_depth, depth_loop, sheet_loop
+from replication.bench.peers import SOLVERS, Kernel, bare_depth, depth_loop, sheet_loop
 from replication.cases import BETA_5, changed, inputs_of
 from replication.error.hard_cases import HARD_CASES
 from replication.error.ladder import exact_motion
@@ -40,7 +40,7 @@ Measure = Literal["depth", "history"]
 MEASURES: dict[Measure, str] = {"depth": "final depth", "history": "history"}
 """The quantities that a method can compute, with their titles."""
 
-CASES = {
+BENCH_CASES = {
     "beta-5": "the report's beta-5",
     "beta-3": "the report's beta-3",
     "crossing": "depth just above R",
@@ -49,7 +49,7 @@ CASES = {
 }
 """The cases by their names on the command line, with their names among the hard cases."""
 
-POINTS = 101
+HISTORY_POINTS = 101
 """Number of times of a history, including the first and the last."""
 
 
@@ -57,7 +57,8 @@ POINTS = 101
 class Case:
     """One case with its exact motion.
 
-    `times` [s], shape (POINTS,), run from touch to rest; `depths` [m] are the exact depths then.
+    `times` [s], shape (HISTORY_POINTS,), run from touch to rest; `depths` [m] are the exact depths
+    then.
     """
 
     name: str
@@ -97,20 +98,20 @@ class Case:
 
 
 def build_case(name: str) -> Case:
-    """Build one of `CASES`. Raises ValueError for another name.
+    """Build one of `BENCH_CASES`. Raises ValueError for another name.
 
     >>> case = build_case("beta-5")
     >>> f"{case.times[-1] * 1e9:.3f} ns", f"{case.error('depth', 7.67e-6):.1e}"
     ('26.079 ns', '6.4e-04')
     """
-    if name not in CASES:
-        raise ValueError(f"there is no case {quoted(name)} to time: {advice(name, CASES)}")
-    impact = changed(BETA_5, HARD_CASES[CASES[name]])
+    if name not in BENCH_CASES:
+        raise ValueError(f"there is no case {quoted(name)} to time: {advice(name, BENCH_CASES)}")
+    impact = changed(BETA_5, HARD_CASES[BENCH_CASES[name]])
     motion, times, depths = exact_motion(impact), list[float](), list[Number]()
-    for k in range(POINTS):
+    for k in range(HISTORY_POINTS):
         # Depths X (1 - s^2), for equally spaced s, are about equally spaced in time. Finding the
         # time of a depth takes one quadrature; finding the depth at a time would take a dozen.
-        s = motion.reals.number(Fraction(POINTS - 1 - k, POINTS - 1))
+        s = motion.reals.number(Fraction(HISTORY_POINTS - 1 - k, HISTORY_POINTS - 1))
         depth = motion.final_depth * (1 - s * s)
         time = motion.time_to_depth(depth)
         times.append(float(time))
@@ -178,7 +179,7 @@ def tasks(case: Case) -> Iterator[Task]:
         yield Task(name, setting, "depth", alone, stop, compiled=True)
 
 
-def _many(name: str, setting: str, case: Case, work: Function, count: int, stop: float = 0) -> Task:
+def _many(name: str, setting: str, case: Case, work: Kernel, count: int, stop: float = 0) -> Task:
     work = partial(work, *case.columns(count))
     return Task(f"{name}, many", setting, "depth", work, stop, count, compiled=True)
 
@@ -201,7 +202,7 @@ def _plain_history(times: Any, given: tuple[float, ...]) -> list[float]:
     return depth
 
 
-def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[Task]:
+def _solver(case: Case, method: str, setting: str, solve: Kernel) -> Iterator[Task]:
     """Yield final depth and history by a solver, which returns y = x/R for b, c and times."""
     impact, R = case.impact, case.impact.radius
     b = 3 * impact.target_density / (8 * impact.particle_density)
@@ -218,7 +219,7 @@ def _solver(case: Case, method: str, setting: str, solve: Function) -> Iterator[
 Point = dict[str, Any]
 """The measurements of a task by `measured_points`, as in the JSON."""
 
-DIGITS = range(1, 16)
+CORRECT_DIGITS = range(1, 16)
 
 SOLVERS_DIGITS = (4, 6, 8, 10, 12)
 """The digits for which the loosest setting of each solver is sought."""
@@ -249,7 +250,7 @@ def bench(
                 points = [_next(turn) for turn in turns]
             del points[len(trials) :]  # later turns have filled in those of the first
             mark_front(points)
-            asked = product((False, True), MEASURES, DIGITS)
+            asked = product((False, True), MEASURES, CORRECT_DIGITS)
             measured.append({
                 "name": case.name,
                 "inputs": inputs_of(case.impact),

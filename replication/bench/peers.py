@@ -13,8 +13,8 @@ from typing import Any
 import numba
 import numpy as np
 
-Function = Callable[..., Any]
-njit: Callable[[Function], Function] = numba.njit  # Numba's own has no type hints
+Kernel = Callable[..., Any]
+njit: Callable[[Kernel], Kernel] = numba.njit  # Numba's own has no type hints
 
 
 @njit
@@ -65,7 +65,7 @@ def _dop853(tolerance: float, b: float, c: float, times: Any) -> Any:
     return [0.0, *(solver.integrate(time)[0] for time in times[1:].tolist())]
 
 
-def _runge_kutta(*rows: tuple[float, ...]) -> Function:
+def _runge_kutta(*rows: tuple[float, ...]) -> Kernel:
     """Return the explicit method of a Butcher tableau, with equal steps between the times.
 
     The arguments are the rows of its matrix but the first, which is empty, and then its weights.
@@ -117,6 +117,11 @@ def _heyoka(tolerance: float, b: float, c: float, times: Any) -> Any:
     return np.concatenate([depths, beyond.propagate_grid(rest)[-1][1:, 0]])
 
 
+def crosses_radius(b: float, c: float) -> bool:
+    """Return whether y exceeds 1: by Eq. 13 without time, y^2 - y^3/3 is 2/3 there."""
+    return math.log1p(b / c) / (2 * b) > 2 / 3
+
+
 @cache
 def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
     """Return an integrator that stops at y = 1, and one for the motion beyond."""
@@ -125,8 +130,7 @@ def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
     except ImportError as error:
         raise ValueError("not installed: python -m pip install 'coldspray[bench]'") from error
     y, u = heyoka.make_vars("y", "u")
-    crosses = math.log1p(b / c) / (2 * b) > 2 / 3
-    events: Any = {"t_events": [heyoka.t_event(y - 1)]} if crosses else {}
+    events: Any = {"t_events": [heyoka.t_event(y - 1)]} if crosses_radius(b, c) else {}
     return [
         heyoka.taylor_adaptive([(y, u), (u, -(b * u * u + c) * area)], tol=tolerance, **more)
         for area, more in ((2 * y - y * y, events), (1.0, {}))
@@ -136,7 +140,7 @@ def _taylor(tolerance: float, b: float, c: float) -> list[Any]:
 TOLERANCES = (1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12, 3e-14)
 """Relative and absolute tolerances; SciPy accepts no relative one below 2.2e-14."""
 
-SOLVERS: dict[str, tuple[str, Sequence[float], Function]] = {
+SOLVERS: dict[str, tuple[str, Sequence[float], Kernel]] = {
     **{
         f"solve_ivp {name}": ("rtol {:g}", TOLERANCES, partial(_solve_ivp, name))
         for name in ("RK45", "DOP853", "LSODA", "Radau")

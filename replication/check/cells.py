@@ -37,7 +37,7 @@ def formula_at(exam: Examination, place: Position) -> str:
 def feeding(table: SchemeTable) -> list[Line]:
     """The lines beside the table that its columns read, in order of calculation."""
     read: set[Line] = set()
-    found: list[Line] = []
+    feeders: list[Line] = []
     for role, line in table.lines.items():
         if role == "time" or line.usual is None:
             continue
@@ -52,10 +52,10 @@ def feeding(table: SchemeTable) -> list[Line]:
         for helper in table.helpers:
             if helper not in read and any(helper.place(i) in cells for i in helper.values):
                 read.add(helper)
-                found.append(helper)
+                feeders.append(helper)
     order = table.evaluator.order
     return sorted(
-        found, key=lambda o: max((order.get(o.place(i), -1) for i in o.values), default=-1)
+        feeders, key=lambda o: max((order.get(o.place(i), -1) for i in o.values), default=-1)
     )
 
 
@@ -184,7 +184,7 @@ def _is_pasted(exam: Examination, role: str, line: Line) -> bool:
         return False
     others = (o for r, o in exam.table.lines.items() if r not in (role, "time"))
     matters = exam.fitted.probe is not None or role in ("deceleration", "velocity_initial")
-    return matters and any(other.computed for other in others)
+    return matters and any(o.computed for o in others)
 
 
 def _is_blank(evaluator: Evaluator, place: Position) -> bool:
@@ -351,8 +351,8 @@ def _judge_line(exam: Examination, inputs: Inputs, line: Line, role: str | None)
             odd[place] = verdict
     groups = runs({p: (v[0], v[1]) for p, v in odd.items()}, table.across)
     for group in groups:
-        kind, text, expected, found = odd[group[0]]
-        exam.add(str(kind), group, expected, str(text), found)  # type: ignore[arg-type]
+        kind, text, expected, content = odd[group[0]]
+        exam.add(str(kind), group, expected, str(text), content)  # type: ignore[arg-type]
 
 
 def _is_wrong(exam: Examination, line: Line) -> bool:
@@ -366,7 +366,7 @@ def _is_wrong(exam: Examination, line: Line) -> bool:
     )
 
 
-Verdict = tuple[str, str, object, object]
+Oddity = tuple[str, str, object, object]
 """What is wrong with a cell: its kind, a text, what is expected and what is there."""
 
 
@@ -418,7 +418,7 @@ def _odd_cell(exam: Examination, line: Line, role: str | None, k: int, place: Po
 def _verdict_on_cell(
     exam: Examination, inputs: Inputs, line: Line, role: str | None, k: int, place: Position,
     probe: bool,
-) -> Verdict | None:  # fmt: skip
+) -> Oddity | None:  # fmt: skip
     """What is wrong with a cell that has not its column's formula; None if nothing."""
     odd = _odd_cell(exam, line, role, k, place)
     shape = exam.table.evaluator.formulas.get(place)
@@ -440,12 +440,12 @@ def own(shape: Shape, place: Position) -> str:
     return formula_text(shape.key, place[1], place[2])[:200]
 
 
-def _other_number(odd: _Cell, formula: str) -> Verdict:
+def _other_number(odd: _Cell, formula: str) -> Oddity:
     text = f"{formula} does not give what the rest of the table does"
     return "odd formula", text, odd.expected, odd.value
 
 
-def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool, bool]) -> Verdict | None:
+def _unlike(odd: _Cell, formula: str, same: bool, alike: tuple[bool, bool, bool]) -> Oddity | None:
     """The verdict on a formula that responds to the row, or to the inputs, as its column or not.
 
     A number in the formula of the others, where this one reads a cell, is theirs.
@@ -496,7 +496,7 @@ def as_typed(value: Scalar) -> Scalar:
     return quoted(value) if isinstance(value, str) else value
 
 
-def _verdict_on_typed(exam: Examination, odd: _Cell) -> Verdict | None:
+def _verdict_on_typed(exam: Examination, odd: _Cell) -> Oddity | None:
     """The verdict on a cell without a formula."""
     value, line = odd.value, odd.line
     if value is None:
@@ -520,7 +520,7 @@ def _verdict_on_typed(exam: Examination, odd: _Cell) -> Verdict | None:
     return "typed number", text, odd.expected, value
 
 
-def _without_number(odd: _Cell) -> Verdict | None:
+def _without_number(odd: _Cell) -> Oddity | None:
     """The verdict on a formula that gives no number."""
     value = odd.value
     if value == "#N/A" and odd.role is not None and _goes_on(odd.line, odd.place):

@@ -166,7 +166,7 @@ def _is_same(value: float, typed: float) -> bool:
 
 def _is_sole(source: Influence, inputs: Inputs) -> bool:
     """Whether nothing else that the rows rest on responds as a typed number does."""
-    return all(other is source or other.family != source.family for other in inputs.sources)
+    return all(s is source or s.family != source.family for s in inputs.sources)
 
 
 def _digits_alike(a: float, b: float) -> bool:

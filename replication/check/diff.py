@@ -18,7 +18,7 @@ from replication.check.layout import Layout
 from replication.check.references import TextReference, words
 from spreadsheets.foreign import Book, Position, StoredCell, Value, read, without_zeros
 
-KINDS = ("setting", "added", "removed", "moved", "name", "formula", "value")
+DIFFERENCE_KINDS = ("setting", "added", "removed", "moved", "name", "formula", "value")
 """The kinds of differences that `diff` reports."""
 
 LAST = "only the last digits of the values differ"
@@ -244,14 +244,14 @@ class BookComparison:
             key=lambda at: (self.after[at].formula is not None, number[at[0]], at[1:]),
         )
         order = calculation_order(typed_first, reading)
-        found = [*_grouped("formula", formulas), *_grouped("value", traced)]
+        differences = [*_grouped("formula", formulas), *_grouped("value", traced)]
 
         def rank(difference: Difference) -> tuple[int, int, bool]:
             text = difference.explanation
             follows = 2 if text.startswith(LAST) else int(text.startswith(FOLLOWS))
             return follows, order[difference.place], difference.kind == "value"
 
-        yield from sorted(found, key=rank)
+        yield from sorted(differences, key=rank)
 
     def traced(self, formulas: _Differing, values: _Differing) -> _Differing:
         """The values that differ, each with the other difference that it follows from, if any."""

@@ -1,13 +1,22 @@
 """The result of `diff`: one JSON document, and the text and page of it."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from replication import page
 from replication.check.diff import FOLLOWS, LAST, BookComparison, not_stored
 from replication.check.difference import Difference, counted
-from replication.check.shown import NO_LIMIT, anchor, drawn, fitted, safe, whereabouts, wrapped
+from replication.check.shown import (
+    NO_LIMIT,
+    JsonObject,
+    anchor,
+    drawn,
+    fitted,
+    safe,
+    whereabouts,
+    wrapped,
+)
 from replication.user_input import printable
 from spreadsheets.foreign import Book, Position
 
@@ -15,8 +24,6 @@ _MOST, _MOST_LISTED = 12, 1_000
 """How many differences the text and the page show: with more, the first matter most."""
 _SHEETS = 12
 """How many sheets are drawn."""
-
-Record = Mapping[str, Any]
 
 
 # ---- for a program
@@ -66,7 +73,7 @@ def _diff_verdict(comparison: BookComparison) -> str:
 # ---- for a person at a terminal
 
 
-def change_contents(difference: Record) -> str:
+def change_contents(difference: JsonObject) -> str:
     """Say what a cell held and what it holds now.
 
     >>> change_contents({"kind": "value", "expected": 500.0, "found": None})
@@ -91,12 +98,12 @@ def _is_plain(text: str) -> bool:
     return text.startswith(("#", "'")) or text in ("TRUE", "FALSE")
 
 
-def diff_text(record: Record, width: int = NO_LIMIT) -> str:
+def diff_text(record: JsonObject, width: int = NO_LIMIT) -> str:
     """The result for a terminal of this width, the most important first."""
     return fitted(_diff_lines(record), width)
 
 
-def _diff_lines(record: Record) -> Iterator[str]:
+def _diff_lines(record: JsonObject) -> Iterator[str]:
     yield record["verdict"]
     yield ""
     yield safe(record["file"], 200)
@@ -115,7 +122,7 @@ def _diff_lines(record: Record) -> Iterator[str]:
 # ---- for a browser
 
 
-def diff_page(record: Record, differences: Sequence[Difference], book: Book) -> str:
+def diff_page(record: JsonObject, differences: Sequence[Difference], book: Book) -> str:
     """The page of a record, without scripts and with nothing loaded from outside.
 
     `differences` are those of the record, with their cells in the book that is drawn.
@@ -139,10 +146,10 @@ def diff_page(record: Record, differences: Sequence[Difference], book: Book) -> 
 
 def _drawn_pair(
     name: str, sheets: Sequence[str], differences: Sequence[Difference], book: Book
-) -> Record:
+) -> JsonObject:
     """A sheet with its differences marked, with the values that are stored."""
 
-    def holds(at: Position) -> tuple[object, str | None]:
+    def content(at: Position) -> tuple[object, str | None]:
         return book[at].value, book[at].formula
 
-    return drawn(name, sheets, differences, book.sheets[name], holds)
+    return drawn(name, sheets, differences, book.sheets[name], content)

@@ -32,13 +32,13 @@ class Difference:
         cells = span((row, column) for _, row, column in self.cells)
         if len(sheets) > 1 or not is_range([(row, column) for _, row, column in self.cells]):
             cells = f"{address(*self.place[1:])} and {counted(len(self.cells) - 1, 'cell')} more"
-        expected, found = (
+        expected, content = (
             str(value).upper() if isinstance(value, bool) else value
             for value in (self.expected, self.found)
         )
         return {
             "sheet": self.place[0], "cell": address(*self.place[1:]), "kind": self.kind,
-            "expected": expected, "found": found, "explanation": self.explanation,
+            "expected": expected, "found": content, "explanation": self.explanation,
             "cells": cells, "count": len(self.cells),
         }  # fmt: skip
 

@@ -11,10 +11,11 @@ from replication.check.roles import Input
 from replication.check.six import Six
 from replication.check.table import SchemeTable
 from replication.check.words import COLUMNS
+from replication.models.impact import STOP_VELOCITY
 from spreadsheets.foreign import Position, Value
 from spreadsheets.scalars import Error
 
-KINDS = (
+DEPARTURE_KINDS = (
     "stale value", "typed number", "odd formula", "typed constant", "other scheme", "other input",
     "unit", "printed number", "not calculated",
 )  # fmt: skip
@@ -66,7 +67,7 @@ class Examination:
     firm_speed: bool = False
     read: frozenset[Position] = frozenset()
     intended: Six | None = None
-    stop_velocity: float = 1.0
+    stop_velocity: float = STOP_VELOCITY
     right_depth: float | None = None
     ends: bool = True
     stop_row: int | None = None
@@ -123,13 +124,13 @@ class Examination:
 
     def add(
         self, kind: str, cells: Sequence[Position], expected: Value | None, text: str,
-        found: Value | None = None,
+        content: Value | None = None,
     ) -> None:  # fmt: skip
         """Add a difference; the first of its cells is the one to look at.
 
-        If `found` is not given, it is the value of that cell.
+        If `content` is not given, it is the value of that cell.
         """
-        value = self.table.evaluator.values.get(cells[0]) if found is None else found
+        value = self.table.evaluator.values.get(cells[0]) if content is None else content
         value = str(value) if isinstance(value, Error) else value
         entry = Departure(kind, tuple(cells), expected, value, text, self.rank(cells[0]))
         self.differences.append(entry)

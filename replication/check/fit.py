@@ -28,7 +28,7 @@ from replication.check.table import SchemeTable
 from spreadsheets.foreign import Position
 from spreadsheets.scalars import LiteralKey, Scalar
 
-Cells = Mapping[Position, Scalar]
+CellNumbers = Mapping[Position, Scalar]
 Literals = Mapping[LiteralKey, float]
 """What takes the place of cells, and of numbers typed into formulas."""
 _ROUGH = 1e-7
@@ -109,7 +109,7 @@ class Force:
     u: State
     sign: float
     e: float | None = None
-    cells: Cells | None = None
+    cells: CellNumbers | None = None
     literals: Literals | None = None
 
     def __call__(self, depth: float, speed: float) -> float:
@@ -398,10 +398,10 @@ def _fall(probe: Probe, place: Position, start: State, sign: float) -> tuple[flo
 
 def _quadratic(values: Sequence[float]) -> tuple[float, float, float]:
     """The coefficients of 1, s and s² through values at s = 1, 2 and 3."""
-    one, two, three = values
-    square = (one - 2 * two + three) / 2
-    slope = two - one - 3 * square
-    return one - slope - square, slope, square
+    first, second, third = values
+    square = (first - 2 * second + third) / 2
+    slope = second - first - 3 * square
+    return first - slope - square, slope, square
 
 
 def _grid_of_terms(force: Force, x: float, u: float) -> list[list[float]]:
@@ -448,7 +448,7 @@ def _numbers_of(
 
 def _diameter_of(force: Force, x: float, u: float) -> float | None:
     """D of a force that is a contact area D x - x² times anything that depends on the velocity."""
-    found = []
+    diameters = []
     for speed in (u, 2.3 * u):
         free, slope, square = _quadratic([force(s * x, speed) for s in (1, 2, 3)])
         largest = max(abs(slope), abs(square))
@@ -457,8 +457,8 @@ def _diameter_of(force: Force, x: float, u: float) -> float | None:
         test = 2.6 * slope + 2.6**2 * square
         if not math.isclose(force(2.6 * x, speed), test, rel_tol=_ROUGH):
             return None
-        found.append(-slope / square * x)
-    return found[0] if found[0] > 0 and math.isclose(*found, rel_tol=_ROUGH) else None
+        diameters.append(-slope / square * x)
+    return diameters[0] if diameters[0] > 0 and math.isclose(*diameters, rel_tol=_ROUGH) else None
 
 
 def centered_numbers(
@@ -554,7 +554,7 @@ def _named_force(
 
 
 def numbers_with(
-    fitted: TableFit, table: SchemeTable, cells: Cells, literals: Literals
+    fitted: TableFit, table: SchemeTable, cells: CellNumbers, literals: Literals
 ) -> dict[str, float]:
     """The numbers by name, with some inputs replaced: of c, e and t only their ratios count."""
     probe, six = fitted.probe, fitted.six

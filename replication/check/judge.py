@@ -63,11 +63,11 @@ def examine(
         return exam
     state_units(table, inputs)
     _trust_report(inputs)
-    found = equations(table, exam.fitted, inputs)
-    if _is_half(found, inputs):
+    balances = equations(table, exam.fitted, inputs)
+    if _is_half(balances, inputs):
         _take_for_radius(inputs)
-        found = equations(table, exam.fitted, inputs)
-    broken, of_units = _without_unit(inputs, found)
+        balances = equations(table, exam.fitted, inputs)
+    broken, of_units = _without_unit(inputs, balances)
     result, stated = right_units(of_units, inputs), inputs.powers
     if result is not None:
         inputs.powers = result[0]
@@ -77,11 +77,11 @@ def examine(
     speeds: list[Item] = [("column", role) for role in ("velocity_initial", "velocity_final")]
     speeds += [inputs.cells["velocity"].item] if "velocity" in inputs.cells else []
     exam.firm_speed = any(item in inputs.stated for item in speeds)
-    refuse_other_model(exam, inputs, found)
+    refuse_other_model(exam, inputs, balances)
     take_inputs(exam, inputs)
     typed_constants(exam, inputs, [place for place in typed if place not in exam.read], broken)
     typed_stops(exam, inputs)
-    _broken_equations(exam, inputs, found, broken)
+    _broken_equations(exam, inputs, balances, broken)
     if result is None:
         _not_converted(exam, inputs, of_units)
     else:
@@ -108,14 +108,14 @@ def _trust_report(inputs: Inputs) -> None:
             inputs.stated[source.item] = False
 
 
-def _is_half(found: Sequence[Balance], inputs: Inputs) -> bool:
+def _is_half(balances: Sequence[Balance], inputs: Inputs) -> bool:
     """Whether the number taken for the diameter is the radius: the mass is an eighth.
 
     The formula for the diameter is then wrong, not that for the mass.
     """
     if "diameter" not in inputs.cells or "radius" in inputs.cells:
         return False
-    rests = {eq.name: eq.residual(inputs.powers) for eq in found}
+    rests = {eq.name: eq.residual(inputs.powers) for eq in balances}
     off = [rests[name] - math.log10(8) for name in ("mass",) if name in rests]
     off = off or [rests[name] + math.log10(8) for name in ("G", "H") if name in rests]
     return len(off) > ("mass" not in rests) and all(abs(x - round(x)) < CLOSE for x in off)
@@ -251,14 +251,16 @@ def _slips(name: str, inputs: Inputs) -> list[tuple[float, str]]:
     return slips
 
 
-def _without_unit(inputs: Inputs, found: Sequence[Balance]) -> tuple[dict[str, str], list[Balance]]:
+def _without_unit(
+    inputs: Inputs, balances: Sequence[Balance]
+) -> tuple[dict[str, str], list[Balance]]:
     """The equations that no unit can mend, each by its name with the slip that it shows.
 
     Then all the others; and those with a slip, without it, as they still tell a unit.
     """
     broken: dict[str, str] = {}
     mendable: list[Balance] = []
-    for eq in found:
+    for eq in balances:
         rest = eq.residual(inputs.powers)
         free = [item for item in eq.terms if item not in inputs.stated]
         odd = any(inputs.powers.get(item, 0.0) % 1 for item in eq.terms if item in inputs.stated)
@@ -286,10 +288,10 @@ def _clipped(power: float) -> float:
 
 
 def _broken_equations(
-    exam: Examination, inputs: Inputs, found: Sequence[Balance], broken: Mapping[str, str]
+    exam: Examination, inputs: Inputs, balances: Sequence[Balance], broken: Mapping[str, str]
 ) -> None:
     """Report the equations that do not hold, each where it is written."""
-    times = {eq.name: 10.0 ** _clipped(eq.residual(inputs.powers)) for eq in found}
+    times = {eq.name: 10.0 ** _clipped(eq.residual(inputs.powers)) for eq in balances}
     rests_on = {
         "diameter": title("radius"), "radius": title("diameter"),
         "mass": "the radius and the particle density", "resistance": "beta and the flow stress",
@@ -509,11 +511,11 @@ _FOLLOWS = {"c = e": {"c = dt", "e = dt"}, "t = c": {"t = dt", "c = dt"}}
 """Equations that follow from two others, which tell the column that is wrong."""
 
 
-def _not_converted(exam: Examination, inputs: Inputs, found: Sequence[Balance]) -> None:
+def _not_converted(exam: Examination, inputs: Inputs, balances: Sequence[Balance]) -> None:
     """Report equations that a power of ten breaks, where no single statement mends all of them."""
     accused = {cell for d in exam.differences for cell in d.cells}
-    rests = {eq.name: eq.residual(inputs.powers) for eq in found}
-    wrong = [eq for eq in found if not eq.holds(inputs.powers)]
+    rests = {eq.name: eq.residual(inputs.powers) for eq in balances}
+    wrong = [eq for eq in balances if not eq.holds(inputs.powers)]
     of_cell = any(eq.name in ("c = dt", "e = dt", "t = dt") for eq in wrong)
     for eq in wrong:
         rest = rests[eq.name]

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from openpyxl.utils.cell import get_column_letter
 
 from replication.check.difference import Difference, counted, span
-from replication.check.matching import Cell, in_order, matched, same_sheets
+from replication.check.matching import RowAndColumn, in_order, matched, same_sheets
 from replication.check.references import TextReference
 from spreadsheets.foreign import LAST_COLUMN, LAST_ROW, Book, Position, Value
 from spreadsheets.foreign import StoredCell as Contents
@@ -53,7 +53,7 @@ class Layout:
     def __init__(self, before: Book, after: Book) -> None:
         self.before, self.after = before, after
         self.partners = same_sheets(before, after)
-        self.places: dict[str, dict[Cell, Cell]] = {}
+        self.places: dict[str, dict[RowAndColumn, RowAndColumn]] = {}
         self.lines: dict[str, tuple[AlignedLines, AlignedLines]] = {}
         self.differences = list(self._sheets())
         for name, partner in self.partners.items():
@@ -213,14 +213,18 @@ def _now_at(sheet: str, axis: _Axis, old: Sequence[int], new: Sequence[int]) -> 
 
 
 def _unmatched(
-    kind: str, sheet: str, cells: Mapping[Cell, Contents], left: set[Cell], lines: list[list[int]]
+    kind: str,
+    sheet: str,
+    cells: Mapping[RowAndColumn, Contents],
+    left: set[RowAndColumn],
+    lines: list[list[int]],
 ) -> Iterator[Difference]:
     """The cells that only one of two sheets has: by whole lines, then block by block.
 
     `left` are these cells, `lines` the rows and the columns that the other sheet does not have.
     """
     for axis, unknown in zip(AXES, lines, strict=True):
-        by_line: dict[int, list[Cell]] = {}
+        by_line: dict[int, list[RowAndColumn]] = {}
         for cell in left:
             by_line.setdefault(cell[axis.number], []).append(cell)
         for run in consecutive([line for line in unknown if line in by_line]):
@@ -234,7 +238,11 @@ def _unmatched(
 
 
 def _only_in_one(
-    kind: str, sheet: str, cells: Mapping[Cell, Contents], block: Sequence[Cell], text: str
+    kind: str,
+    sheet: str,
+    cells: Mapping[RowAndColumn, Contents],
+    block: Sequence[RowAndColumn],
+    text: str,
 ) -> Difference:
     """The difference for cells that only one of two sheets has."""
     shown: Value | None = span(block)
@@ -260,7 +268,7 @@ def consecutive(lines: Iterable[int]) -> list[list[int]]:
     return runs
 
 
-def touching(cells: Iterable[Cell]) -> list[list[Cell]]:
+def touching(cells: Iterable[RowAndColumn]) -> list[list[RowAndColumn]]:
     """Group cells into blocks of cells that touch each other, be it at a corner.
 
     >>> touching([(1, 1), (2, 2), (4, 4)])

@@ -17,9 +17,9 @@ from replication.check.references import outline
 from spreadsheets.foreign import Book
 from spreadsheets.foreign import StoredCell as Contents
 
-Cell = tuple[int, int]
+RowAndColumn = tuple[int, int]
 """Row and column."""
-Line = tuple[Any, ...]
+LineContents = tuple[Any, ...]
 """What a row or a column holds."""
 
 _RARE = 20
@@ -57,7 +57,7 @@ def same_sheets(before: Book, after: Book) -> dict[str, str]:
     return same
 
 
-def keys(cells: Mapping[Cell, Contents]) -> dict[Cell, str]:
+def keys(cells: Mapping[RowAndColumn, Contents]) -> dict[RowAndColumn, str]:
     """What each cell is known by: its text or number, or what its formula does."""
     return {place: _content_key(cell) for place, cell in cells.items()}
 
@@ -75,13 +75,13 @@ class Matched:
     rows: Mapping[int, int]
     columns: Mapping[int, int]
 
-    def cells(self, cells: Iterable[Cell]) -> dict[Cell, Cell]:
+    def cells(self, cells: Iterable[RowAndColumn]) -> dict[RowAndColumn, RowAndColumn]:
         """These cells, each with its place in the other workbook; without those that are gone."""
         rows, columns = self.rows, self.columns
         return {(r, c): (rows[r], columns[c]) for r, c in cells if r in rows and c in columns}
 
 
-def matched(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> Matched:
+def matched(old: Mapping[RowAndColumn, Contents], new: Mapping[RowAndColumn, Contents]) -> Matched:
     """Match the rows and columns of two sheets.
 
     If as many cells are the same where they were, nothing counts as moved.
@@ -104,7 +104,7 @@ def matched(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> Match
     return moved if _cells_matched(moved, a, b) > _cells_matched(in_place, a, b) else in_place
 
 
-def _unchanged(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> bool:
+def _unchanged(old: Mapping[RowAndColumn, Contents], new: Mapping[RowAndColumn, Contents]) -> bool:
     """Whether all cells hold the same, apart from the values of formulas."""
     return old.keys() == new.keys() and all(
         cell.formula == new[place].formula
@@ -113,12 +113,14 @@ def _unchanged(old: Mapping[Cell, Contents], new: Mapping[Cell, Contents]) -> bo
     )
 
 
-def _cells_matched(way: Matched, old: Mapping[Cell, str], new: Mapping[Cell, str]) -> int:
+def _cells_matched(
+    way: Matched, old: Mapping[RowAndColumn, str], new: Mapping[RowAndColumn, str]
+) -> int:
     """How many cells hold the same where they are said to be."""
     return sum(new.get(to) == old[cell] for cell, to in way.cells(old).items())
 
 
-def _line_contents(contents: Mapping[Cell, str], axis: int) -> dict[int, list[str]]:
+def _line_contents(contents: Mapping[RowAndColumn, str], axis: int) -> dict[int, list[str]]:
     """The contents of each row (axis 0) or column (axis 1), in order."""
     lines: dict[int, list[str]] = defaultdict(list)
     for cell in sorted(contents):
@@ -126,7 +128,7 @@ def _line_contents(contents: Mapping[Cell, str], axis: int) -> dict[int, list[st
     return lines
 
 
-def _numbered(contents: Mapping[Cell, str]) -> dict[int, tuple[tuple[int, str], ...]]:
+def _numbered(contents: Mapping[RowAndColumn, str]) -> dict[int, tuple[tuple[int, str], ...]]:
     """The contents of each row, each with the number of its column."""
     rows: dict[int, list[tuple[int, str]]] = defaultdict(list)
     for (row, column), key in sorted(contents.items()):
@@ -134,7 +136,7 @@ def _numbered(contents: Mapping[Cell, str]) -> dict[int, tuple[tuple[int, str], 
     return {row: tuple(line) for row, line in rows.items()}
 
 
-def _stable(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> frozenset[int]:
+def _stable(old: Mapping[RowAndColumn, str], new: Mapping[RowAndColumn, str]) -> frozenset[int]:
     """The columns that hold the same on both sides, in whatever order."""
     a, b = ({c: Counter(line) for c, line in _line_contents(x, 1).items()} for x in (old, new))
     return frozenset(
@@ -148,7 +150,9 @@ def _stable(old: Mapping[Cell, str], new: Mapping[Cell, str]) -> frozenset[int]:
 
 
 def _align(
-    old: Mapping[int, Line], new: Mapping[int, Line], stable: frozenset[int] | None = None
+    old: Mapping[int, LineContents],
+    new: Mapping[int, LineContents],
+    stable: frozenset[int] | None = None,
 ) -> dict[int, int]:
     """Match lines by their contents: the numbers of old lines to those of new ones.
 
@@ -172,7 +176,7 @@ def _align(
 class _Alignment:
     """Lines of two sheets, and the pairs found so far, by their indices from 0."""
 
-    def __init__(self, old: Mapping[int, Line], new: Mapping[int, Line]) -> None:
+    def __init__(self, old: Mapping[int, LineContents], new: Mapping[int, LineContents]) -> None:
         self.old, self.new = sorted(old), sorted(new)
         self.a, self.b = [old[line] for line in self.old], [new[line] for line in self.new]
         self.pairs: dict[int, int] = {}
@@ -189,7 +193,7 @@ class _Alignment:
             [j for j in range(len(self.b)) if j not in self.taken],
         )
 
-    def equal(self, a: Sequence[Line], b: Sequence[Line]) -> None:
+    def equal(self, a: Sequence[LineContents], b: Sequence[LineContents]) -> None:
         """Match lines with the same contents that no third line has, and equal neighbours."""
         once = []
         for lines, left in zip((a, b), self.left(), strict=True):
@@ -203,7 +207,9 @@ class _Alignment:
         for i, j in [(len(a), len(b)), *sorted(self.pairs.items(), reverse=True)]:
             self.extend(a, b, i, j, -1)
 
-    def extend(self, a: Sequence[Line], b: Sequence[Line], i: int, j: int, step: int) -> None:
+    def extend(
+        self, a: Sequence[LineContents], b: Sequence[LineContents], i: int, j: int, step: int
+    ) -> None:
         """Match the neighbours of a pair on one side, as far as they are equal."""
         i, j = i + step, j + step
         while 0 <= i < len(a) and 0 <= j < len(b) and a[i] == b[j] != ():
@@ -241,7 +247,7 @@ class _Alignment:
                     for k in range(size):
                         self.add(old[i + k], new[j + k])
                 continue
-            places: dict[Line, deque[int]] = defaultdict(deque)
+            places: dict[LineContents, deque[int]] = defaultdict(deque)
             for line, j in zip(b, new, strict=True):
                 places[line].append(j)
             for line, i in zip(a, old, strict=True):
@@ -281,7 +287,7 @@ class _Alignment:
                     self.add(i, j)
 
 
-def _places(lines: Sequence[Line], left: Iterable[int]) -> dict[Hashable, list[int]]:
+def _places(lines: Sequence[LineContents], left: Iterable[int]) -> dict[Hashable, list[int]]:
     """In which of some lines each content stands."""
     places: dict[Hashable, list[int]] = defaultdict(list)
     for k in left:

@@ -27,7 +27,7 @@ _FEW_ROWS = 6
 """Of fewer rows without formulas it cannot be said that they follow another model."""
 
 
-def refuse_other_model(exam: Examination, inputs: Inputs, found: Sequence[Balance]) -> None:
+def refuse_other_model(exam: Examination, inputs: Inputs, balances: Sequence[Balance]) -> None:
     """Raise AnotherModelError if the formulas are not the report's, and the inputs are not either.
 
     Formulas that are not the report's are a fault if the rest of the table is: if two of the
@@ -46,14 +46,14 @@ def refuse_other_model(exam: Examination, inputs: Inputs, found: Sequence[Balanc
     if fitted.probe is None:
         if fitted.followed <= MOST:
             raise AnotherModelError(other_method(exam.table))
-        if not (_rows_agree(exam) and _steps_agree(found, inputs)):
+        if not (_rows_agree(exam) and _steps_agree(balances, inputs)):
             raise AnotherModelError(_sentence(exam, "deceleration"))
         return
     wrong = [role for role, way in fitted.ways.items() if way is not REPORT[role]]
     force = fitted.ways.get("deceleration", REPORT["deceleration"])
     if not wrong or force is REPORT["deceleration"]:
         return
-    hold = {eq.name for eq in found if eq.holds(inputs.powers)}
+    hold = {eq.name for eq in balances if eq.holds(inputs.powers)}
     strong = len(hold & {"D", "mass", "diameter", "G", "H", "resistance"})
     if strong >= (1 if fitted.centered else 2) or ("D" in hold and force is None):
         return  # the contact area is that of the sphere whose radius a cell holds
@@ -186,18 +186,18 @@ def _sentence(exam: Examination, role: str) -> str:
     place = table.place(role if role in table.lines else exam.fitted.brakes, min(3, table.steps))
     subject, what = _SAYS[role]
     depth, speed = table.area("depth"), table.area(start_of_row(table)[0])
-    found = f"another model: {table.sheet!r} has depths in {depth} and velocities in {speed}"
+    opening = f"another model: {table.sheet!r} has depths in {depth} and velocities in {speed}"
     if place in table.evaluator.formulas:
         formula = formula_at(exam, place)[:120]
-        return f"{found}, but {subject} in {cell_name(place, True)}, {formula}, {what}"
+        return f"{opening}, but {subject} in {cell_name(place, True)}, {formula}, {what}"
     if table.evaluator.book.is_text:
         return f"another model: the number in {where(table.evaluator.book, place)}, {what}"
-    return f"{found}, but the number in {cell_name(place, True)} {what}"
+    return f"{opening}, but the number in {cell_name(place, True)} {what}"
 
 
-def _steps_agree(found: Sequence[Balance], inputs: Inputs) -> bool:
+def _steps_agree(balances: Sequence[Balance], inputs: Inputs) -> bool:
     """Whether depth and velocity of a table of numbers change by the same step, in some unit."""
-    rests = [(eq.residual(inputs.powers), eq.slack) for eq in found if eq.name == "c = e"]
+    rests = [(eq.residual(inputs.powers), eq.slack) for eq in balances if eq.name == "c = e"]
     return all(abs(rest - round(rest)) < slack for rest, slack in rests)
 
 

@@ -111,7 +111,7 @@ class Still:
 
     place: Position
     formula: str
-    found: Scalar
+    value: Scalar
 
 
 def still_cells(evaluator: Evaluator) -> Iterator[Still]:
@@ -146,10 +146,10 @@ def moving(book: Book, still: Still) -> Book:
     return replace(book, sheets={**book.sheets, sheet: cells})
 
 
-def with_dollars(book: Book, found: list[Slipped]) -> Book:
+def with_dollars(book: Book, slips: list[Slipped]) -> Book:
     """The book with the formulas that were meant, which have no stored values."""
     sheets = {name: dict(cells) for name, cells in book.sheets.items()}
-    for slip in found:
+    for slip in slips:
         for (sheet, row, column), text in slip.formulas.items():
             cell = sheets[sheet][row, column]
             sheets[sheet][row, column] = cell._replace(formula=text)

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from reference.units import to_si
-from replication.check.fit import Cells, Literals, TableFit, numbers_with
+from replication.check.fit import CellNumbers, Literals, TableFit, numbers_with
 from replication.check.six import first_speed
 from replication.check.table import SchemeTable
 from spreadsheets.foreign import Position
@@ -165,27 +165,27 @@ def _typed_into(
 
 def influences(table: SchemeTable, fitted: TableFit) -> list[Influence]:
     """Everything that the table rests on, with its exponents."""
-    values, found = table.evaluator.values, trace(table, fitted)
-    numbers = {p: v for p in found.cells if type(v := values[p]) is float}
+    values, traced = table.evaluator.values, trace(table, fitted)
+    numbers = {p: v for p in traced.cells if type(v := values[p]) is float}
     if fitted.probe is None:
-        return [Influence(p, None, value, {}, found.cells[p]) for p, value in numbers.items()]
+        return [Influence(p, None, value, {}, traced.cells[p]) for p, value in numbers.items()]
     base = _all_numbers(table, fitted, {}, {})
 
-    def exponents(cells: Cells, literals: Literals) -> dict[str, float]:
+    def exponents(cells: CellNumbers, literals: Literals) -> dict[str, float]:
         now = _all_numbers(table, fitted, cells, literals)
         ratios = {n: now.get(n, math.nan) / value for n, value in base.items() if value}
         good = {n: ratio for n, ratio in ratios.items() if 0 < ratio < math.inf}
         return {n: math.log(ratio) / math.log(_NUDGE) for n, ratio in good.items()}
 
     result = [
-        Influence(p, None, value, exponents({p: value * _NUDGE}, {}), found.cells[p])
+        Influence(p, None, value, exponents({p: value * _NUDGE}, {}), traced.cells[p])
         for p, value in numbers.items()
         if math.isfinite(value * _NUDGE) and value
     ]
     result += [Influence(p, None, 0.0, {}) for p, value in numbers.items() if not value]
 
     def typed(plain: bool) -> list[Influence]:
-        some = ((k, *entry) for k, entry in found.numbers.items() if is_plain(entry[0]) == plain)
+        some = ((k, *entry) for k, entry in traced.numbers.items() if is_plain(entry[0]) == plain)
         return [Influence(p, k, v, exponents({}, {k: v * _NUDGE})) for k, v, p in some if v]
 
     result += typed(plain=False)
@@ -212,7 +212,7 @@ def _plain_steps(plain: Sequence[Influence], stepless: Sequence[str]) -> list[In
 
 
 def _all_numbers(
-    table: SchemeTable, fitted: TableFit, cells: Cells, literals: Literals
+    table: SchemeTable, fitted: TableFit, cells: CellNumbers, literals: Literals
 ) -> dict[str, float]:
     """The six numbers and the time step, with some inputs replaced."""
     result = numbers_with(fitted, table, cells, literals)

@@ -137,9 +137,9 @@ def _equals(place: Position, value: float, exam: Examination, rows: Sequence[int
 
 def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
     """Report results that show another row than the last, or another unit than their label."""
-    found = list(results(exams, evaluator))
+    all_results = list(results(exams, evaluator))
     wrong: set[Position] = set()
-    for result in found:
+    for result in all_results:
         exam = result.exam
         if any(d.explanation.startswith(OTHER_STOP) for d in exam.differences):
             continue
@@ -148,14 +148,14 @@ def judge_results(exams: Sequence[Examination], evaluator: Evaluator) -> None:
         if read & (wrong | accused):
             wrong.add(result.place)
             continue
-        if any(r.place in read and r.over_diameter for r in found):
+        if any(r.place in read and r.over_diameter for r in all_results):
             continue  # it shows another result, which is judged
         _typed_radius(result, evaluator)
         label, unit, sure = label_of(result.place, evaluator)
-        fault = _fault(result, found, label, unit, sure)
+        fault = _fault(result, all_results, label, unit, sure)
         if fault is not None:
             kind, expected, text = fault
-            if result.k != exam.last and (source := _shown_by(result, found, evaluator)):
+            if result.k != exam.last and (source := _shown_by(result, all_results, evaluator)):
                 wrong.add(result.place)
                 result = source
                 text = _taken_from(source)
@@ -186,7 +186,7 @@ Fault = tuple[str, str | None, str]
 
 
 def _fault(
-    result: Result, found: Sequence[Result], label: str, unit: str | None, sure: bool
+    result: Result, all_results: Sequence[Result], label: str, unit: str | None, sure: bool
 ) -> Fault | None:
     """What is wrong with a result; None if nothing."""
     table = result.exam.table
@@ -194,7 +194,7 @@ def _fault(
     last = result.exam.last
     x, final = table.number("depth", result.k), table.number("depth", last)
     if result.k != last and x != final:
-        return _other_row(result, found, label, named)
+        return _other_row(result, all_results, label, named)
     if result.exam.cut_short and named == "depth" and not result.ratio:
         text = f"the label says the final depth, but the rows end at step {last}, before the stop"
         return "odd formula", None, text
@@ -220,15 +220,17 @@ def _what(result: Result) -> str:
 
 
 def _other_row(
-    result: Result, found: Sequence[Result], label: str, named: str | None
+    result: Result, all_results: Sequence[Result], label: str, named: str | None
 ) -> Fault | None:
     """The fault of a result that shows another row than the last; None if it may well do so."""
     exam, last = result.exam, result.exam.last
-    same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in found)
+    same_row = any(r.k == last and r.place[:2] == result.place[:2] for r in all_results)
     if same_row or re.search(rf"(?<!\d){result.k}(?!\d)", label) or _says_row(result):
         return None
     close = last - NEAR_END <= result.k < last or named in ("depth", "ratio")
-    shows_last = any(r.k == last and r.exam is exam and r.ratio == result.ratio for r in found)
+    shows_last = any(
+        r.k == last and r.exam is exam and r.ratio == result.ratio for r in all_results
+    )
     if not close or _ANOTHER_ROW.search(label) or (shows_last and named is None):
         return None
     cell = exam.table.place("depth", last)
@@ -241,10 +243,10 @@ def _taken_from(result: Result) -> str:
     return f"{taken}; its last step is {result.exam.last}"
 
 
-def _shown_by(result: Result, found: Sequence[Result], evaluator: Evaluator) -> Result | None:
+def _shown_by(result: Result, all_results: Sequence[Result], evaluator: Evaluator) -> Result | None:
     """The result that another one takes its depth from; None if that reads the table itself."""
     read = {a.corner for a in evaluator.areas(result.place) if a.cells == 1}
-    return next((r for r in found if r.place in read and r.k == result.k), None)
+    return next((r for r in all_results if r.place in read and r.k == result.k), None)
 
 
 def _says_row(result: Result) -> bool:
@@ -282,11 +284,11 @@ def _tells_ratio(exam: Examination) -> bool:
 
 @dataclass(frozen=True)
 class PrintedCell:
-    """A cell with a final depth or X/R of the report; `found` is its value in the claim's unit."""
+    """A cell with a final depth or X/R of the report; `value` is that in the claim's unit."""
 
     claim: Claim
     place: Position
-    found: float
+    value: float
     met: bool
     typed: bool
 

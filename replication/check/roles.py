@@ -113,11 +113,11 @@ class _Roles:
         """The inputs that the label of a cell may name; its unit is noted."""
         if place not in self.known:
             label, unit, sure = label_of(place, self.evaluator)
-            found = input_roles(label, unit) if label else frozenset()
-            if not found and place in self.names:
-                found = input_roles(self.names[place], unit)
+            named = input_roles(label, unit) if label else frozenset()
+            if not named and place in self.names:
+                named = input_roles(self.names[place], unit)
                 label = label or self.names[place]
-            self.known[place] = found
+            self.known[place] = named
             self.inputs.labels[place] = label, unit
             if unit is not None:
                 self.inputs.stated["cell", place] = sure
@@ -184,9 +184,9 @@ class _Roles:
         """Whether a formula for the radius is not half of the only typed cell, a diameter."""
         if self.roles(source) != {"radius"} or len(typed) != 1:
             return False
-        (other,) = typed
-        power = math.log10(abs(source.value / other.value) * 2)
-        is_diameter = self.roles(other) == {"diameter"} and self.rests_on(source, other)
+        (diameter,) = typed
+        power = math.log10(abs(source.value / diameter.value) * 2)
+        is_diameter = self.roles(diameter) == {"diameter"} and self.rests_on(source, diameter)
         return is_diameter and abs(power - round(power)) > CLOSE
 
     def computed_radius(
@@ -195,12 +195,12 @@ class _Roles:
         """Take a radius that is computed from several cells for a typed one, without these."""
         members = {"radius", "diameter"}
         for source in made:
-            parts = [other for other in typed if self.rests_on(source, other)]
+            parts = [s for s in typed if self.rests_on(source, s)]
             several = len(parts) > 1 and not all(self.roles(part) & members for part in parts)
             if several and self.roles(source) & members == {"radius"}:
-                left = [other for other in typed if other not in parts]
+                left = [s for s in typed if s not in parts]
                 self.parts |= {part.cell for part in parts if part.cell is not None}
-                return [source, *left], [other for other in made if other is not source]
+                return [source, *left], [s for s in made if s is not source]
         return typed, made
 
     def radius_or_diameter(self, source: Influence) -> str:
@@ -241,8 +241,8 @@ class _Roles:
         for source in made:
             is_density = self.roles(source) & members == {"particle_density"}
             if is_density and not self.rests_on(source, radius):
-                left = [other for other in typed if not self.rests_on(source, other)]
-                return [source, *left], [other for other in made if other is not source]
+                left = [s for s in typed if not self.rests_on(source, s)]
+                return [source, *left], [s for s in made if s is not source]
         return typed, made
 
     def strength(self, typed: Sequence[Influence], made: Sequence[Influence]) -> None:
@@ -253,10 +253,10 @@ class _Roles:
         for source in made:  # a beta or a flow stress may be computed from other numbers
             label = self.roles(source) & {"beta", "flow_stress"}
             if len(label) == 1:
-                own = [other for other in typed if self.rests_on(source, other)]
-                if not any(self.roles(other) & members for other in own):
+                own = [s for s in typed if self.rests_on(source, s)]
+                if not any(self.roles(s) & members for s in own):
                     self.put(derived, next(iter(label)), source)
-                    typed = [other for other in typed if other not in own]
+                    typed = [s for s in typed if s not in own]
         if len(typed) == 1 and made and not self.roles(typed[0]) & members:
             typed = [*typed, *self.without_effect(made)]
         stresses = [source for source in typed if self.is_stress(source)]
@@ -283,7 +283,7 @@ class _Roles:
     def has_mass(self, source: Influence) -> bool:
         """Whether a formula reads a mass, or what the mass rests on: it is no resistance."""
         others = (o for o in self.inputs.sources if o.family in ("inertia", "size"))
-        return any(self.rests_on(source, other) for other in others)
+        return any(self.rests_on(source, o) for o in others)
 
     def is_stress(self, source: Influence) -> bool:
         """Whether the label of a cell has a unit of stress beside its words.
@@ -310,12 +310,12 @@ class _Roles:
                 return still
         return []
 
-    def rests_on(self, source: Influence, other: Influence | None) -> bool:
+    def rests_on(self, source: Influence, basis: Influence | None) -> bool:
         """Whether the formula of a cell reads another cell, directly or not."""
-        if other is None or other.cell is None or source.place is None:
+        if basis is None or basis.cell is None or source.place is None:
             return False
         read = self.evaluator.cone([source.place], ())
-        return any(area.covers(other.cell) for cell in read for area in self.evaluator.areas(cell))
+        return any(area.covers(basis.cell) for cell in read for area in self.evaluator.areas(cell))
 
     def by_label(self) -> None:
         """Take cells that respond as no input does for what their labels say: to be judged."""
@@ -387,9 +387,9 @@ def _is_factor(source: Influence, family: str) -> bool:
 
 def _is_alias(source: Influence, others: Sequence[Influence]) -> bool:
     """Whether a formula only shows a typed cell that it responds like, perhaps in another unit."""
-    for other in others:
-        ratio = source.value / other.value
-        alike = all(abs(p - other.powers.get(n, 0.0)) < 0.02 for n, p in source.powers.items())
+    for typed in others:
+        ratio = source.value / typed.value
+        alike = all(abs(p - typed.powers.get(n, 0.0)) < 0.02 for n, p in source.powers.items())
         if alike and ratio > 0 and unit_power(math.log10(ratio), 0.0) is not None:
             return True
     return False

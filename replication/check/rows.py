@@ -86,9 +86,9 @@ def _with_rarer_formulas(table: SchemeTable) -> Iterator[SchemeTable]:
     for line in (*table.lines.values(), *table.helpers):
         for shape, count in line.shapes.most_common(2)[1:]:
             if line.usual is not None and shape is not line.usual and 4 * count >= len(line.values):
-                other = replace(line, meant=shape)
-                lines = {r: other if o is line else o for r, o in table.lines.items()}
-                helpers = tuple(other if o is line else o for o in table.helpers)
+                rarer = replace(line, meant=shape)
+                lines = {r: rarer if o is line else o for r, o in table.lines.items()}
+                helpers = tuple(rarer if o is line else o for o in table.helpers)
                 yield replace(table, lines=lines, helpers=helpers, places={})
 
 

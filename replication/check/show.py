@@ -1,7 +1,7 @@
 """The result of `check`: one JSON document, and the text and page of it."""
 
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 from typing import Any
 
@@ -10,10 +10,19 @@ from replication import page
 from replication.check.delimited import column_at, where
 from replication.check.difference import counted
 from replication.check.examination import NO_FAULT, Departure, Examination
-from replication.check.shown import NO_LIMIT, anchor, drawn, fitted, safe, whereabouts, wrapped
+from replication.check.shown import (
+    NO_LIMIT,
+    JsonObject,
+    anchor,
+    drawn,
+    fitted,
+    safe,
+    whereabouts,
+    wrapped,
+)
 from replication.check.table import Line, SchemeTable, cell_name
 from replication.check.taken import report_case, six_in_si
-from replication.check.words import COLUMNS, INPUTS, is_unit, unit_name
+from replication.check.words import COLUMNS, INPUT_UNITS, is_unit, unit_name
 from replication.check.workbook import Checked
 from replication.text import columns, quantity, with_unit
 from spreadsheets.evaluate import Evaluator
@@ -21,8 +30,6 @@ from spreadsheets.foreign import Book, Position
 
 _MOST = 12
 """How many entries of a list the text shows: with more of one kind, the first matter most."""
-
-Record = Mapping[str, Any]
 
 # ---- for a program
 
@@ -44,7 +51,7 @@ def check_record(check: Checked) -> dict[str, Any]:
                 "id": number.claim.id, "title": number.claim.title,
                 "place": str(number.claim.place), "printed": number.claim.shown,
                 "unit": number.claim.unit, "interval": str(number.claim.interval()),
-                "cell": cell_name(number.place, True), "found": number.found, "met": number.met,
+                "cell": cell_name(number.place, True), "found": number.value, "met": number.met,
                 **({"where": where(book, number.place)} if book.is_text else {}),
             }
             for number in check.numbers
@@ -53,13 +60,13 @@ def check_record(check: Checked) -> dict[str, Any]:
     }  # fmt: skip
 
 
-def _entry(difference: Departure, book: Book) -> Record:
+def _entry(difference: Departure, book: Book) -> JsonObject:
     """The entry of a difference; of a text file it has the line and the column, too, by `where`."""
     entry = _finite(difference.record())
     return {**entry, "where": where(book, difference.place)} if book.is_text else entry
 
 
-def _finite(record: Record) -> Record:
+def _finite(record: JsonObject) -> JsonObject:
     """The record with null for numbers that JSON cannot hold."""
     infinite = (float("inf"), float("-inf"))
     return {k: None if v in infinite or v != v else v for k, v in record.items()}
@@ -130,7 +137,7 @@ def _wrong_depth(exam: Examination) -> tuple[float, float] | None:
     return None if abs(reached - right) <= close else (reached, right)
 
 
-def _final_depths(exam: Examination) -> Record:
+def _final_depths(exam: Examination) -> JsonObject:
     """The final depth, and what it should be. An excerpt has no final depth."""
     return {"sheet": exam.table.sheet, "cells": exam.table.area("depth"),
             "found": exam.final_depth if exam.ends else None,
@@ -142,7 +149,7 @@ def _which_table(sheet: str, cells: str, tables: int) -> str:
     return f" of {safe(sheet, 40)}!{cells}" if tables > 1 else ""
 
 
-def _taken(exam: Examination) -> Record:
+def _taken(exam: Examination) -> JsonObject:
     """What was taken for what in a table: its scheme, its columns and its inputs."""
     table = exam.table
     return {
@@ -157,11 +164,11 @@ def _taken(exam: Examination) -> Record:
             for role in COLUMNS if (line := table.lines.get(role)) is not None
         },
         "inputs": {
-            role: {"value": entry.si, "unit": INPUTS[role],
+            role: {"value": entry.si, "unit": INPUT_UNITS[role],
                    "cell": cell_name(entry.place, True) if entry.place else None,
                    "label": entry.label or None, "by": entry.how,
                    **_line_of(table.evaluator.book, entry.place)}
-            for role in INPUTS
+            for role in INPUT_UNITS
             if (entry := exam.inputs.get(role)) is not None
         },
     }  # fmt: skip
@@ -192,7 +199,7 @@ def _shown_unit(role: str, power: float) -> str:
 # ---- for a person at a terminal
 
 
-def fault_contents(difference: Record) -> str:
+def fault_contents(difference: JsonObject) -> str:
     """Say what a cell holds and should hold.
 
     >>> fault_contents({"kind": "printed number", "expected": "7.67 um", "found": 7.68e-06})
@@ -203,25 +210,25 @@ def fault_contents(difference: Record) -> str:
     'is blank, should hold 500.0'
     """
     values = difference["expected"], difference["found"]
-    expected, found = ("blank" if value is None else safe(value, 120) for value in values)
+    expected, content = ("blank" if value is None else safe(value, 120) for value in values)
     if difference["kind"] == "printed number":  # in the report's unit, not the cell's
-        return f"holds {found}, the report prints {expected}"
+        return f"holds {content}, the report prints {expected}"
     if difference["kind"] == "unit" and isinstance(values[0], str):
-        return f"stated in {found}, is in {expected}" if is_unit(found) else f"is in {expected}"
-    if values[0] is None or expected == found:
-        return "" if values[1] is None else f"holds {found}"
+        return f"stated in {content}, is in {expected}" if is_unit(content) else f"is in {expected}"
+    if values[0] is None or expected == content:
+        return "" if values[1] is None else f"holds {content}"
     if values[1] is None:
         return f"is blank, should hold {expected}"
-    reads = found.startswith("=") and isinstance(values[0], str) and expected[:1] != "="
-    return f"holds {found}, should {'read' if reads else 'hold'} {expected}"
+    reads = content.startswith("=") and isinstance(values[0], str) and expected[:1] != "="
+    return f"holds {content}, should {'read' if reads else 'hold'} {expected}"
 
 
-def check_text(record: Record, width: int = NO_LIMIT) -> str:
+def check_text(record: JsonObject, width: int = NO_LIMIT) -> str:
     """The result for a terminal of this width, the most important first."""
     return fitted(_check_lines(record, width), width)
 
 
-def _check_lines(record: Record, width: int) -> Iterator[str]:
+def _check_lines(record: JsonObject, width: int) -> Iterator[str]:
     yield from (record["verdict"], safe(record["file"], 200))
     first, differences = record["first"], record["differences"]
     if first:
@@ -263,7 +270,7 @@ def _check_lines(record: Record, width: int) -> Iterator[str]:
     yield from _paragraph("", [], len(shown))
 
 
-def _taken_lines(taken: Record, width: int) -> Iterator[str]:
+def _taken_lines(taken: JsonObject, width: int) -> Iterator[str]:
     """What was taken for what in a table, as lines."""
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
@@ -300,7 +307,7 @@ def _known_by(how: str, label: str) -> str:
     return _KNOWN_BY.get(how) or f"{how} {safe(label, 40)!r}"
 
 
-def _told_difference(difference: Record) -> Iterator[str]:
+def _told_difference(difference: JsonObject) -> Iterator[str]:
     yield f"  {whereabouts(difference)}, {difference['kind']}"
     if line := fault_contents(difference):
         yield f"    {line}"
@@ -318,7 +325,7 @@ def _paragraph(title: str, lines: Sequence[str], total: int = 0) -> Iterator[str
 # ---- for a browser
 
 
-def check_page(record: Record, differences: Sequence[Departure], evaluator: Evaluator) -> str:
+def check_page(record: JsonObject, differences: Sequence[Departure], evaluator: Evaluator) -> str:
     """The page of a record, without scripts and with nothing loaded from outside.
 
     `differences` are those of the record, with their cells in the workbook that is drawn.
@@ -353,7 +360,7 @@ _LISTS = (
 """The lists of differences on the page: the name and the title of each."""
 
 
-def _list_of(difference: Record) -> int:
+def _list_of(difference: JsonObject) -> int:
     """The index in `_LISTS` of the list that a difference belongs to."""
     kind = difference["kind"]
     return 2 if kind in NO_FAULT else int(kind == "printed number")
@@ -361,8 +368,8 @@ def _list_of(difference: Record) -> int:
 
 def _drawn_sheet(
     name: str, sheets: Sequence[str], differences: Sequence[Departure], evaluator: Evaluator
-) -> Record:
+) -> JsonObject:
     """A sheet with its differences marked, with the values that were calculated."""
     values, book = evaluator.values, evaluator.book
-    filled = {place[1:] for place in values if place[0] == name}
-    return drawn(name, sheets, differences, filled, lambda at: (values.get(at), book[at].formula))
+    nonblank = {place[1:] for place in values if place[0] == name}
+    return drawn(name, sheets, differences, nonblank, lambda at: (values.get(at), book[at].formula))

@@ -18,7 +18,8 @@ _ROWS, _COLUMNS = 400, 40
 _NEAR = 3
 """How far from a marked cell is near."""
 
-Record = Mapping[str, Any]
+JsonObject = Mapping[str, Any]
+"""An entry of the JSON, or the whole document."""
 
 
 def safe(text: object, limit: int = 90) -> str:
@@ -55,14 +56,14 @@ def wrapped(line: str, indent: str) -> str:
     return fill(line, 100, initial_indent=indent, subsequent_indent=indent, break_on_hyphens=False)
 
 
-def _shown_place(difference: Record) -> str:
+def _shown_place(difference: JsonObject) -> str:
     """The cell of a difference, or in a text file its line and column."""
     if "where" in difference:
         return safe(difference["where"])
     return f"{safe(difference['sheet'], 40)}!{difference['cell']}"
 
 
-def whereabouts(difference: Record) -> str:
+def whereabouts(difference: JsonObject) -> str:
     """Where a difference stands, with the other cells that it has."""
     more = ""
     if difference["count"] > 1:
@@ -84,12 +85,13 @@ def drawn(
     name: str,
     sheets: Sequence[str],
     differences: Iterable[Difference],
-    filled: Iterable[tuple[int, int]],
-    holds: Callable[[Position], tuple[object, str | None]],
-) -> Record:
+    nonblank: Iterable[tuple[int, int]],
+    content: Callable[[Position], tuple[object, str | None]],
+) -> JsonObject:
     """A sheet with its differences marked: its name, column letters, and rows of cells.
 
-    `filled` are its cells that are not blank, `holds` gives the value and the formula of a cell.
+    `nonblank` are its cells that are not blank, `content` gives the value and the formula of a
+    cell.
     """
     origins: dict[tuple[int, int], int] = {}
     kinds: dict[tuple[int, int], str] = {}
@@ -99,13 +101,13 @@ def drawn(
         for sheet, row, column in difference.cells:
             if sheet == name:
                 kinds.setdefault((row, column), difference.kind.replace(" ", "-"))
-    used = {*filled, *origins}
+    used = {*nonblank, *origins}
     rows = _kept({row for row, _ in used}, {row for row, _ in origins}, _ROWS)
     columns = _kept({column for _, column in used}, {column for _, column in origins}, _COLUMNS)
 
-    def cell(at: tuple[int, int]) -> Record:
+    def cell(at: tuple[int, int]) -> JsonObject:
         place = (name, *at)
-        value, formula = holds(place)
+        value, formula = content(place)
         is_number, kind = isinstance(value, float), kinds.get(at)
         classes = ("right" * is_number, kind and f"marked {kind}", "origin" * (at in origins))
         return {
@@ -133,7 +135,7 @@ def _kept(used: set[int], marked: set[int], most: int) -> list[int]:
 # ---- for a machine that runs tests
 
 
-def junit(record: Record, kinds: Sequence[str], no_fault: Collection[str] = ()) -> str:
+def junit(record: JsonObject, kinds: Sequence[str], no_fault: Collection[str] = ()) -> str:
     """A test suite with one test for each kind: failed if it was found, skipped if not covered."""
     failed = record["summary"].keys() - no_fault
     suite = ET.Element(

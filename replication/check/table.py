@@ -282,14 +282,14 @@ def lines(evaluator: Evaluator) -> dict[tuple[str, bool], list[Line]]:
             elif isinstance(value, str) and value.strip() and place not in evaluator.formulas:
                 typed.setdefault((sheet, across), Counter())[index] += 1
                 texts.setdefault((sheet, across), {}).setdefault(number, set()).add(index)
-    found: dict[tuple[str, bool], list[Line]] = {}
+    by_sheet: dict[tuple[str, bool], list[Line]] = {}
     for key, by_number in numbers.items():
         heads = {index for index, count in typed.get(key, Counter()).items() if count > 1}
         for number in sorted(by_number):
             own = heads & texts.get(key, {}).get(number, set())
             for values in _runs(by_number[number], own):
-                found.setdefault(key, []).append(Line(evaluator, *key, number, values))
-    return found
+                by_sheet.setdefault(key, []).append(Line(evaluator, *key, number, values))
+    return by_sheet
 
 
 def _runs(values: dict[int, float], heads: set[int]) -> Iterator[dict[int, float]]:
@@ -388,15 +388,15 @@ def _is_constant(line: Line) -> bool:
     return sum(value == values[0] for value in values) > 0.8 * len(values)
 
 
-def _velocity_falls(speed: Line, other: Line | None, role: str) -> list[tuple[int, float, float]]:
+def _velocity_falls(speed: Line, ends: Line | None, role: str) -> list[tuple[int, float, float]]:
     """How much the velocity falls in each row: the row's index, the fall and its rounding."""
     falls = []
     pairs = _pairs(speed)
-    if other is not None:  # velocities at both ends of a row
+    if ends is not None:  # velocities at both ends of a row
         for index, v in speed.values.items():
-            w = other.values.get(index)
+            w = ends.values.get(index)
             if w is not None:
-                falls.append((index, v - w, speed.rounding(v) + other.rounding(w)))
+                falls.append((index, v - w, speed.rounding(v) + ends.rounding(w)))
     else:
         for before, now in pairs:
             v, w = speed.values[before], speed.values[now]
@@ -410,7 +410,7 @@ def _velocity_falls(speed: Line, other: Line | None, role: str) -> list[tuple[in
 
 def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[SchemeTable]:
     """The tables of a workbook in the order of its sheets; `given` are lines that a user named."""
-    found: list[SchemeTable] = []
+    chosen: list[SchemeTable] = []
     every = lines(evaluator)
     if given.keys() & {"depth", "velocity", "velocity_initial", "velocity_final"}:
         line = next(iter(given.values()))
@@ -420,20 +420,20 @@ def tables(evaluator: Evaluator, given: Mapping[str, Line]) -> list[SchemeTable]
         return [table] if table else []
     longest = {key: max(len(o.values) for o in known) for key, known in every.items()}
     for known in every.values():
-        found += _by_heads(evaluator, [o for o in known if not o.computed and len(o.values) < 8])
+        chosen += _by_heads(evaluator, [o for o in known if not o.computed and len(o.values) < 8])
     for close in (_EXACT, _LOOSE):
         for _, known in sorted(every.items(), key=lambda item: -longest[item[0]]):
-            taken = {place for table in found for place in table.places}
+            taken = {place for table in chosen for place in table.places}
             free = [o for o in known if not any(o.place(i) in taken for i in o.values)]
-            found += _on_sheet(evaluator, free[:_MOST_LINES], close)
-        if found:
+            chosen += _on_sheet(evaluator, free[:_MOST_LINES], close)
+        if chosen:
             break
-    if not found:
+    if not chosen:
         for known in every.values():
-            found += _by_heads(evaluator, known)
+            chosen += _by_heads(evaluator, known)
     order = {name: number for number, name in enumerate(evaluator.book.sheets)}
-    found = [t for t in found if not any(_shows(t, o) for o in found if o is not t)]
-    return sorted(found, key=lambda t: (order[t.sheet], min(t.places)))
+    chosen = [t for t in chosen if not any(_shows(t, o) for o in chosen if o is not t)]
+    return sorted(chosen, key=lambda t: (order[t.sheet], min(t.places)))
 
 
 def _by_heads(evaluator: Evaluator, known: Sequence[Line]) -> list[SchemeTable]:
@@ -448,7 +448,7 @@ def _by_heads(evaluator: Evaluator, known: Sequence[Line]) -> list[SchemeTable]:
     return [table] if table else []
 
 
-def _shows(table: SchemeTable, other: SchemeTable) -> bool:
+def _shows(table: SchemeTable, source: SchemeTable) -> bool:
     """Whether a table only shows another one, cell by cell."""
     line = table.lines["depth"]
     if not line.computed:
@@ -456,7 +456,7 @@ def _shows(table: SchemeTable, other: SchemeTable) -> bool:
     if _reads(line, line) or any(_reads(line, o) for o in table.lines.values() if o is not line):
         return False
     some = sorted(i for i in line.values if line.place(i) in table.evaluator.formulas)[:20]
-    reads = sum(any(cell in other.places for cell in behind(line, i)) for i in some)
+    reads = sum(any(cell in source.places for cell in behind(line, i)) for i in some)
     return reads > len(some) / 2
 
 
@@ -465,7 +465,7 @@ def _on_sheet(evaluator: Evaluator, known: Sequence[Line], close: float) -> list
     pairs = list(_pairs_of(known, close))
     if any(not pair.depth.computed for pair in pairs):
         pairs = [pair._replace(score=pair.score + _support(pair, known)) for pair in pairs]
-    found: list[SchemeTable] = []
+    chosen: list[SchemeTable] = []
     used: set[Position] = set()
 
     def is_free(line: Line) -> bool:
@@ -475,12 +475,12 @@ def _on_sheet(evaluator: Evaluator, known: Sequence[Line], close: float) -> list
         if not (is_free(depth) and is_free(speed)):
             continue
         table = _made(evaluator, depth, speed, lag, c, [o for o in known if is_free(o)])
-        if table is None or any(_is_beside(table, o) for o in found):
+        if table is None or any(_is_beside(table, o) for o in chosen):
             continue
-        if depth.computed or len(table.lines) > 2 or not found:
-            found.append(table)
+        if depth.computed or len(table.lines) > 2 or not chosen:
+            chosen.append(table)
             used.update(table.places)
-    return found
+    return chosen
 
 
 class _Pair(NamedTuple):
@@ -540,22 +540,22 @@ def _may_be_pair(depth: Line, speed: Line) -> bool:
     return _reads(depth, speed) or not _reads(depth, depth)
 
 
-def _is_beside(table: SchemeTable, other: SchemeTable) -> bool:
+def _is_beside(table: SchemeTable, main: SchemeTable) -> bool:
     """Whether a table consists of lines that only show those of another one beside it."""
     depth = table.lines["depth"]
     if not depth.computed or _reads(depth, depth):
         return False
-    return any(_reads(depth, line) for line in other.lines.values()) and not any(
-        _reads(line, depth) for line in other.lines.values()
+    return any(_reads(depth, line) for line in main.lines.values()) and not any(
+        _reads(line, depth) for line in main.lines.values()
     )
 
 
-def _reads(line: Line, other: Line) -> bool:
+def _reads(line: Line, source: Line) -> bool:
     """Whether the usual formula of a line reads another line, directly or by its helpers."""
     if line.usual is None:
         return False
-    own, wanted = line.place(_typical(line)), set(map(other.place, other.values))
-    return any(cell in wanted and cell != own for cell in behind(line, _typical(line), other))
+    own, wanted = line.place(_typical(line)), set(map(source.place, source.values))
+    return any(cell in wanted and cell != own for cell in behind(line, _typical(line), source))
 
 
 def behind(line: Line, index: int, *stop: Line) -> set[Position]:
@@ -779,9 +779,9 @@ def _brake_line(
         near = min(_ABOUT, math.log10(1 + 2 * error + close))
         fits = power_of_ten(abs(e) / c) is not None or (not line.computed and off < near)
         named = "deceleration" in line.roles
-        other = bool(line.roles) and not named
+        other_role = bool(line.roles) and not named
         reads = _reads(speed, line)
-        rank = (not fits, not named, other, round(off, 3), not reads, line.number)
+        rank = (not fits, not named, other_role, round(off, 3), not reads, line.number)
         ranked.append((*rank, line))
     ranked.sort(key=lambda entry: entry[:-1])
     if strict:

@@ -9,7 +9,7 @@ from replication.check.examination import AnotherModelError, Examination, near
 from replication.check.fit import TableFit
 from replication.check.roles import Input, Inputs
 from replication.check.six import Six, start_of_row
-from replication.check.words import INPUTS, digits_of, times_too, title, with_si_unit
+from replication.check.words import INPUT_UNITS, digits_of, times_too, title, with_si_unit
 
 OTHER_STEP = 5e-10
 """The report's second time step [s]; the first one is among its printed inputs."""
@@ -73,7 +73,7 @@ def report_case(six: Six | None, fitted: TableFit) -> str | None:
 
 def take_inputs(exam: Examination, inputs: Inputs) -> None:
     """Note the inputs in SI units: from cells, from typed numbers, or solved from the fit."""
-    for role in INPUTS:
+    for role in INPUT_UNITS:
         source = inputs.cells.get(role) or inputs.derived.get(role)
         if source is None:
             continue

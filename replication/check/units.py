@@ -16,7 +16,7 @@ from replication.check.responses import Influence, Item, unit_power
 from replication.check.roles import Inputs
 from replication.check.six import VARIANTS, start_of_row
 from replication.check.table import SchemeTable
-from replication.check.words import COLUMNS, INPUTS
+from replication.check.words import COLUMNS, INPUT_UNITS
 
 _ALIKE = 1e-9
 """The decimal logarithm of a ratio up to which what formulas give is equal."""
@@ -123,8 +123,8 @@ def equations(table: SchemeTable, fitted: TableFit, inputs: Inputs) -> list[Bala
     sides |= _of_force(inputs, _pure_number(six.D, errors.D) * X, G, H)
     least = _ALIKE if fitted.probe is not None else _VAGUE
     ratios = {name: left / right for name, (left, right) in sides.items()}
-    found = [Balance(name, ratio, max(least, ratio.error)) for name, ratio in ratios.items()]
-    return [eq for eq in found if math.isfinite(eq.ratio.log + eq.slack)]
+    balances = [Balance(name, ratio, max(least, ratio.error)) for name, ratio in ratios.items()]
+    return [eq for eq in balances if math.isfinite(eq.ratio.log + eq.slack)]
 
 
 _Sides = dict[str, tuple[Magnitude, Magnitude]]
@@ -204,29 +204,29 @@ def state_units(table: SchemeTable, inputs: Inputs) -> None:
             inputs.stated["column", role] = line.sure
     for role, source in (*inputs.cells.items(), *inputs.derived.items()):
         _, unit = inputs.label(source)
-        if unit and same_dimension(unit, INPUTS[role]) and INPUTS[role] != "1":
+        if unit and same_dimension(unit, INPUT_UNITS[role]) and INPUT_UNITS[role] != "1":
             inputs.powers[source.item] = math.log10(float(to_si(unit)))
         else:
             inputs.stated.pop(source.item, None)
 
 
 def right_units(
-    found: Sequence[Balance], inputs: Inputs
+    balances: Sequence[Balance], inputs: Inputs
 ) -> tuple[dict[Item, float], list[Item]] | None:
     """Units by which all equations hold, and the stated ones that had to be changed.
 
     Units that are not stated are free. Of those that are stated, at most one is changed. None if
     no such units exist.
     """
-    items = list(dict.fromkeys(item for eq in found for item in eq.terms))
+    items = list(dict.fromkeys(item for eq in balances for item in eq.terms))
     texts = {item for item in items if item in inputs.stated and item in inputs.powers}
     free = [item for item in items if item not in inputs.stated]
-    if (result := _least_changes(found, inputs.powers, free)) is not None:
+    if (result := _least_changes(balances, inputs.powers, free)) is not None:
         return result, []
     mends: list[tuple[bool, bool, int, Item, dict[Item, float]]] = []
     for item in items:
         if item in texts:
-            changed = _least_changes(found, inputs.powers, [*free, item])
+            changed = _least_changes(balances, inputs.powers, [*free, item])
             if changed is not None:
                 power = round(changed.get(item, 0.0) - inputs.powers.get(item, 0.0))
                 # What is not stated surely is changed first; units mostly lie a thousand apart. A
@@ -240,10 +240,10 @@ def right_units(
 
 
 def _least_changes(
-    found: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item]
+    balances: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item]
 ) -> dict[Item, float] | None:
     """Change as few free units as possible, by powers of ten, so that all equations hold."""
-    left, later = _set_apart(found, powers, free)
+    left, later = _set_apart(balances, powers, free)
     for most in range(_MOST_CHANGES):
         result = _changed(left, powers, free, most)
         if result is not None:
@@ -252,7 +252,7 @@ def _least_changes(
                 return result
             break
     for most in range(_MOST_CHANGES):  # the units set apart do not fit: all equations at once
-        if (result := _changed(found, powers, free, most)) is not None:
+        if (result := _changed(balances, powers, free, most)) is not None:
             return result
     return None
 
@@ -261,13 +261,13 @@ _Own = list[tuple[Balance, list[Item]]]
 
 
 def _set_apart(
-    found: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item]
+    balances: Sequence[Balance], powers: Mapping[Item, float], free: Sequence[Item]
 ) -> tuple[list[Balance], _Own]:
     """Set equations apart that have a free unit of their own: at the end it makes them hold.
 
     One that stands there squared or cubed does not: its powers of ten are even, or threes.
     """
-    left, later = list(found), _Own()
+    left, later = list(balances), _Own()
     while any(not eq.holds(powers) for eq in left):
         counts: dict[Item, int] = {}
         for eq in left:

@@ -24,9 +24,9 @@ _WORDS: dict[str, dict[str, str]] = tomllib.loads(
 )
 COLUMNS = _WORDS["columns"]
 """The columns of the scheme, in the order of a row, and their SI units."""
-INPUTS = _WORDS["inputs"]
+INPUT_UNITS = _WORDS["inputs"]
 """The inputs that a cell beside the table may hold, and their SI units."""
-_MEASURES = {**COLUMNS, **INPUTS}
+_MEASURES = {**COLUMNS, **INPUT_UNITS}
 
 _MAX_LABEL = 80
 """The most characters of a text that are read."""
@@ -151,7 +151,7 @@ def input_roles(label: str, unit: str | None) -> frozenset[str]:
         ]
         # Only a density is ambiguous: without particle or target in its label it may be either.
         roles = [role for role in roles if role.endswith("density")] or roles[:1]
-    return frozenset(r for r in roles if unit is None or same_dimension(unit, INPUTS[r]))
+    return frozenset(r for r in roles if unit is None or same_dimension(unit, INPUT_UNITS[r]))
 
 
 @cache
@@ -212,7 +212,7 @@ def number_in(text: str) -> tuple[str | None, float]:
         (role, float(number.replace(",", ".")) * float(to_si(named)))
         for number, unit in re.findall(rf"({_NUMBER}) ?([^\s\d,;:()\[\]]+)", text)
         for role in ("velocity", "step")
-        if same_dimension(named := is_unit(unit) or "1", INPUTS[role])
+        if same_dimension(named := is_unit(unit) or "1", INPUT_UNITS[role])
     }
     if quantities:
         return quantities.pop() if len(quantities) == 1 else (None, math.nan)

@@ -27,7 +27,7 @@ from replication.check.table import (
 )
 from replication.check.words import (
     COLUMNS,
-    INPUTS,
+    INPUT_UNITS,
     column_roles,
     input_roles,
     is_unit,
@@ -96,15 +96,15 @@ def check_book(book: Book, given: Mapping[str, str]) -> Checked:
         book = with_dollars(evaluator.book, lost)
         evaluator, texts = _with_texts_as_numbers(_without_values(book))
     columns, cells = _mapped(given, evaluator)
-    found = tables(evaluator, columns)[:_MOST_TABLES]
+    candidates = tables(evaluator, columns)[:_MOST_TABLES]
     still = None
-    if not found and not given:
-        evaluator, texts, found, still = _set_moving(evaluator, texts)
-    if not found:
+    if not candidates and not given:
+        evaluator, texts, candidates, still = _set_moving(evaluator, texts)
+    if not candidates:
         raise ValueError(_nothing(evaluator))
     names = cell_names(evaluator)
-    fits = [fit_table(table) for table in found]
-    found = [table for table, _ in fits]
+    fits = [fit_table(table) for table in candidates]
+    candidates = [table for table, _ in fits]
     idle = numbers_apart(evaluator, fits)
     exams: list[Examination] = []
     others: list[str] = []
@@ -132,10 +132,10 @@ def _set_moving(
     for still in still_cells(evaluator):
         book = _without_values(moving(evaluator.book, still))
         trial, again = _with_texts_as_numbers(book)
-        if (found := tables(trial, {})[:_MOST_TABLES]) and any(
-            still.place in table.places for table in found
+        if (candidates := tables(trial, {})[:_MOST_TABLES]) and any(
+            still.place in table.places for table in candidates
         ):
-            return trial, again, found, still
+            return trial, again, candidates, still
     return evaluator, texts, [], None
 
 
@@ -143,13 +143,13 @@ def _tell_still(exams: Sequence[Examination], still: Still) -> None:
     """Report the cell without which no row moves."""
     for exam in exams:
         if still.place in exam.table.places:
-            blank = still.found is None
+            blank = still.value is None
             kind = "odd formula" if blank else "typed number"
             what = "the cell is blank" if blank else "a zero is typed here"
             text = f"{what}: no row moves; checked as if {still.formula} stood here"
             cells, rank = (still.place,), exam.rank(still.place)
             exam.ends = False  # its depths are those that were meant
-            exam.differences.append(Departure(kind, cells, still.formula, still.found, text, rank))
+            exam.differences.append(Departure(kind, cells, still.formula, still.value, text, rank))
             return
 
 
@@ -296,7 +296,7 @@ def _mapped(
     cells: dict[str, Position] = {}
     for name, where in mapping.items():
         area = _area(name, where, evaluator)
-        if name in INPUTS and area.cells == 1 and name not in columns:
+        if name in INPUT_UNITS and area.cells == 1 and name not in columns:
             cells[name] = (area.sheet, area.top, area.left)
             if type(evaluator.values.get(cells[name])) is not float:
                 raise ValueError(
@@ -332,8 +332,8 @@ def _named_line(name: str, where: str, area: Area, evaluator: Evaluator) -> Line
 def _area(name: str, where: str, evaluator: Evaluator) -> Area:
     """Return the range that --map gives. Raises ValueError if there is no single one."""
     book = evaluator.book
-    if name not in (*_LINES, *INPUTS):
-        meant = advice(name, dict.fromkeys([*COLUMNS, *INPUTS]))
+    if name not in (*_LINES, *INPUT_UNITS):
+        meant = advice(name, dict.fromkeys([*COLUMNS, *INPUT_UNITS]))
         raise ValueError(f"--map {name[:40]!r} is not a known name; {meant}")
     areas: list[Area] = []
     for sheet in book.sheets:
@@ -411,14 +411,14 @@ def _labelled_texts(evaluator: Evaluator) -> set[Position]:
         (a.sheet, a.top, a.left) for p in evaluator.formulas for a in evaluator.areas(p)
         if a.cells == 1
     }  # fmt: skip
-    found = set()
+    places = set()
     for place in read - evaluator.formulas.keys():
         text = evaluator.values.get(place)
         if type(text) is str and not is_unit(text):
             label, unit, _ = label_of(place, evaluator)
             if label and label != text and input_roles(label, unit):
-                found.add(place)
-    return found
+                places.add(place)
+    return places
 
 
 def _texts_for_numbers(evaluator: Evaluator) -> set[Position]:
@@ -470,8 +470,8 @@ def _without_numbers(evaluator: Evaluator) -> Iterator[Departure]:
                 if value == "#VALUE!":  # a text stands where a number should be
                     kind, says = "odd formula", f"below {quoted(text)} formulas give {value}"
                 says += ": no table is found there"
-                found = str(value) if isinstance(value, Error) else None
-                silent.setdefault(sheet, Departure(kind, (cells[0],), None, found, says, (8.0,)))
+                content = str(value) if isinstance(value, Error) else None
+                silent.setdefault(sheet, Departure(kind, (cells[0],), None, content, says, (8.0,)))
     for place in (
         sorted(_labelled_texts(evaluator) | _texts_for_numbers(evaluator)) if silent else ()
     ):

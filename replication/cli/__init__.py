@@ -15,7 +15,7 @@ from typing import NoReturn, cast
 from replication.cli.output import complain, discard
 from replication.cli.parser import Command, parse_command_line
 
-NAMES = (
+COMMAND_NAMES = (
     "audit", "claims", "workbook", "sheet", "depth", "crater", "solve", "fit", "history",
     "converge", "stability", "sweep", "bench", "check", "diff", "power",
 )  # fmt: skip
@@ -26,15 +26,15 @@ class Commands(Mapping[str, Command]):
     """The module of each command by its name, imported when it is asked for."""
 
     def __getitem__(self, name: str) -> Command:
-        if name not in NAMES:
+        if name not in COMMAND_NAMES:
             raise KeyError(name)
         return cast(Command, import_module(f"{__name__}.{name}"))
 
     def __iter__(self) -> Iterator[str]:
-        return iter(NAMES)
+        return iter(COMMAND_NAMES)
 
     def __len__(self) -> int:
-        return len(NAMES)
+        return len(COMMAND_NAMES)
 
 
 COMMANDS = Commands()

@@ -40,10 +40,10 @@ def run(options: argparse.Namespace) -> int:
     if options.out is not None:
         check_folder(options.out, ["bench.txt"])
     import_numba()  # before other modules do: it says what is wrong with its surroundings
-    from replication.bench.measure import CASES, bench
+    from replication.bench.measure import BENCH_CASES, bench
     from replication.bench.show import texts, write_bench
 
-    names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else CASES)))
+    names = list(dict.fromkeys(options.case or (["beta-5"] if options.quick else BENCH_CASES)))
     repeat, limit = (1, 1.0) if options.quick else (7, 5.0)
     if options.limit is not None:
         with place("--limit"):

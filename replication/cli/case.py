@@ -28,7 +28,8 @@ def add_inputs(
 
     with_sheet: the sheet's step and stop velocity act on the result. If they do not, they are still
     accepted and checked, so that one set of options serves all commands, but the help leaves them
-    out. without: further inputs that the help leaves out, as the command refuses them.
+    out and `case_of` warns. without: further inputs that the help leaves out, as the command
+    refuses them.
     """
     group = parser.add_argument_group(
         "the case",
@@ -46,6 +47,7 @@ def add_inputs(
         acts = (with_sheet or name not in OF_THE_SHEET) and name not in without
         text = f"{meaning} ({has})" if acts else argparse.SUPPRESS
         group.add_argument(option(name), metavar="X", help=text)
+    parser.set_defaults(idle=() if with_sheet else OF_THE_SHEET)
     group.add_argument("--diameter", type=_half_of, help=argparse.SUPPRESS)
 
 
@@ -63,12 +65,18 @@ def _half_of(text: str) -> NoReturn:
 def case_of(options: argparse.Namespace) -> tuple[Impact, list[str]]:
     """Return the case that the options describe, and a warning for every input that is odd.
 
-    Raises ValueError or OSError.
+    An option that the command accepts but that does not act on its result is warned of, too. Raises
+    ValueError or OSError.
     """
     given = given_inputs(options)
     name = "beta-5" if options.case is None else options.case
     case = read_case(name, options.case_file, given)
-    return case, doubts(case, given)
+    idle = [
+        f"{option(name)} has no say here: it acts only where time is stepped, as in `sheet`"
+        for name in options.idle
+        if name in given
+    ]
+    return case, doubts(case, given) + idle
 
 
 @contextmanager

@@ -26,14 +26,14 @@ def run(options: argparse.Namespace) -> int:
     """Check a workbook and print the differences; status 1 if it is not the report's sheet."""
     check_files(options, options.file)
     from replication.check import show
-    from replication.check.examination import KINDS, NO_FAULT
+    from replication.check.examination import DEPARTURE_KINDS, NO_FAULT
     from replication.check.shown import junit
     from replication.check.workbook import check_workbook
 
     checked = check_workbook(options.file, _mapping(options.map))
     record = show.check_record(checked)
     page = partial(show.check_page, record, checked.differences, checked.evaluator)
-    tests = partial(junit, kinds=KINDS, no_fault=NO_FAULT)
+    tests = partial(junit, kinds=DEPARTURE_KINDS, no_fault=NO_FAULT)
     return put_differences(options, record, show.check_text, page, tests)
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from reference.scheme import Scheme
 from replication.cli.case import add_inputs, case_of, doubted, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme, times, whole
-from replication.cli.output import filled, put, width
+from replication.cli.output import paragraph, put, width
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.models.impact import Impact
 from replication.text import columns, in_percent, number
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from replication.plots import Points
 
-Level = Mapping[str, Any]
+_Level = Mapping[str, Any]
 """The results at one time step, as the JSON has them."""
 
 HELP = "split the sheet's error at several time steps; observed order, limit"
@@ -87,7 +87,7 @@ def _convergence_figure(
     return plot_converge(case, record, title, points)
 
 
-def _notes(levels: Sequence[Level]) -> list[str]:
+def _notes(levels: Sequence[_Level]) -> list[str]:
     """Return each kind of warning once. Of a ladder they are expected: its first steps are long."""
     texts, also = dict[str, str](), dict[str, list[str]]()
     for level in levels:
@@ -121,7 +121,7 @@ def _convergence_text(
     levels, columns_of = record["levels"], width()
     regimes = {level["regime"] for level in levels}
     lines = [
-        filled(in_words(case, stop=True)),
+        paragraph(in_words(case, stop=True)),
         "",
         columns(_errors(levels), columns_of),
         "",
@@ -129,12 +129,12 @@ def _convergence_text(
         "",
         f"exact, at rest            {_um(record['exact'], 10)} um",
         f"exact, at stop velocity   {_um(record['exact_at_stop'], 10)} um",
-        filled(f"limit of the last three   {_limit(record)}"),
-        filled(_PARTS),
-        filled(_WHY[Scheme(record["scheme"])]),
+        paragraph(f"limit of the last three   {_limit(record)}"),
+        paragraph(_PARTS),
+        paragraph(_WHY[Scheme(record["scheme"])]),
         "What governs an error:",
         *(
-            filled(f"{name}: {means}", indent="  ", hanging="    ")
+            paragraph(f"{name}: {means}", indent="  ", hanging="    ")
             for name, means in governed_by.items()
             if name in regimes
         ),
@@ -143,17 +143,17 @@ def _convergence_text(
         digits = "1 correct digit" if met["digits"] == 1 else f"{met['digits']} correct digits"
         accident = "where the last row falls is an accident"
         lines += [
-            filled(
+            paragraph(
                 f"{digits}: {number(met['step'] * 1e9, 5)} ns ({met['steps']} steps, "
                 f"error {_um(met['error'], 3)} um) and its halvings; "
                 f"{number(met['fails'] * 1e9, 5)} ns fails."
             ),
-            filled(f"Steps between them may do better or worse: {accident}."),
+            paragraph(f"Steps between them may do better or worse: {accident}."),
         ]
     return "\n".join(lines)
 
 
-def _errors(levels: Sequence[Level]) -> list[tuple[str, ...]]:
+def _errors(levels: Sequence[_Level]) -> list[tuple[str, ...]]:
     """Return the rows of the first table: depth, error, and what governs it, at each step."""
     return [
         ("step", "steps", "depth", "error", "order", "governed by"),
@@ -172,7 +172,7 @@ def _errors(levels: Sequence[Level]) -> list[tuple[str, ...]]:
     ]
 
 
-def _error_parts(levels: Sequence[Level]) -> list[tuple[str, ...]]:
+def _error_parts(levels: Sequence[_Level]) -> list[tuple[str, ...]]:
     """Return the rows of the second table: the four parts of the error at each step."""
     return [
         ("step", "time step", "order", "stop rule", "half step", "rounding"),

@@ -9,7 +9,7 @@ from replication.cli.case import doubt
 from replication.cli.options import add_json, add_quiet
 from replication.cli.output import put
 from replication.models.crater import crater_depth, crater_volume_ratio, volume
-from replication.models.impact import GREATEST, LEAST
+from replication.models.impact import GREATEST_INPUT, LEAST_INPUT
 from replication.text import number, with_unit
 from replication.user_input import place, quoted, read_number
 
@@ -72,6 +72,6 @@ def _positive(option: str, text: str, unit: str) -> float:
     """Read a number above zero of which squares and cubes can be computed."""
     with place(option):
         value = read_number(text, unit)
-        if not LEAST <= value <= GREATEST:
+        if not LEAST_INPUT <= value <= GREATEST_INPUT:
             raise ValueError(f"{quoted(text)} is not between 1e-40 and {with_unit('1e40', unit)}")
         return value

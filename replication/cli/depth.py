@@ -18,7 +18,7 @@ from replication.cli.case import (
     shown_in,
 )
 from replication.cli.options import add_json, add_quiet, one_of
-from replication.cli.output import filled, put, width
+from replication.cli.output import paragraph, put, width
 from replication.models.estimates import penetration_threshold
 from replication.models.impact import Impact, check_each, check_inputs
 from replication.text import aligned, columns, number, with_unit
@@ -27,7 +27,7 @@ from replication.user_input import place, read_number
 HELP = "print the exact final depth of a case, or that by another model"
 EXAMPLE = "coldspray depth --velocity '450 m/s' --radius '5 um' --models"
 
-ABOUT = {
+MODELS_IN_WORDS = {
     "rigid": "a rigid particle, drag and resistance: Eqs. 12 and 13 without time steps",
     "constant-pressure": "the pressure is R_t throughout: no inertia of the target",
     "frank-zook": "Frank and Zook, as Eqs. 14 and 15 give it: a fitted model",
@@ -173,12 +173,12 @@ def _depth_in_words(case: Impact, result: Mapping[str, Any]) -> str:
     """Return the depth by one model; the report's is said without its name, which all else is."""
     name, depth, ratio = result["model"], result["depth"], result["normalized_depth"]
     if name == "rigid":
-        head = [filled(in_words(case))]
+        head = [paragraph(in_words(case))]
     else:
         inputs = {
             key: x for key, x in result["inputs"].items() if key not in DEPTH_MODELS[name].own
         }
-        head = [filled(f"{name}: {ABOUT[name]}"), filled(inputs_in_words(inputs))]
+        head = [paragraph(f"{name}: {MODELS_IN_WORDS[name]}"), paragraph(inputs_in_words(inputs))]
     return "\n".join(
         [
             *head,
@@ -198,9 +198,11 @@ def _all(case: Impact, results: Sequence[Mapping[str, Any]]) -> str:
         depth, ratio = number(result["depth"] * 1e6, 8), number(result["normalized_depth"], 8)
         resistance = number(result["inputs"]["resistance"] / 1e9)
         rows.append((result["model"], depth, ratio, resistance))
-    about = [filled(f"{name}: {ABOUT[name]}", hanging="  ") for name in ABOUT]
+    about = [
+        paragraph(f"{name}: {MODELS_IN_WORDS[name]}", hanging="  ") for name in MODELS_IN_WORDS
+    ]
     table = aligned(rows, right=True)
-    return "\n".join([filled(in_words(case)), "", *table, *_own_table(results), "", *about])
+    return "\n".join([paragraph(in_words(case)), "", *table, *_own_table(results), "", *about])
 
 
 def _own_table(results: Sequence[Mapping[str, Any]]) -> list[str]:
@@ -240,4 +242,4 @@ def _about_threshold(case: Impact, strength: float | None, threshold: float | No
             f"{number(case.velocity)} m/s {reached}."
         )
     rigid = "The depth is that of a rigid particle."
-    return ["", f"threshold         {shown_threshold}", filled(f"{meaning} {rigid}")]
+    return ["", f"threshold         {shown_threshold}", paragraph(f"{meaning} {rigid}")]

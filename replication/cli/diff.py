@@ -33,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
     """Compare two workbooks and print the differences; status 1 if there are any."""
     check_files(options, options.first, options.second)
     from replication.check import diff_show as show
-    from replication.check.diff import KINDS, Tolerance, diff
+    from replication.check.diff import DIFFERENCE_KINDS, Tolerance, diff
     from replication.check.shown import junit
 
     allowed = Tolerance(options.ulp, options.relative, options.digits)
@@ -41,4 +41,6 @@ def run(options: argparse.Namespace) -> int:
     compared = diff(*both, values_only=options.values_only, allowed=allowed)
     record = show.diff_record(compared)
     page = partial(show.diff_page, record, compared.differences, compared.after)
-    return put_differences(options, record, show.diff_text, page, partial(junit, kinds=KINDS))
+    return put_differences(
+        options, record, show.diff_text, page, partial(junit, kinds=DIFFERENCE_KINDS)
+    )

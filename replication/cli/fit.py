@@ -16,7 +16,7 @@ from replication.cli.case import (
     refuse_sought,
 )
 from replication.cli.options import add_csv_and_json, add_quiet, one_of, path
-from replication.cli.output import filled, put
+from replication.cli.output import paragraph, put
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.columns import note_of_unused, read_columns
 from replication.fit import (
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
 HELP = "fit the resistance, or beta, to measured velocities and depths"
 EXAMPLE = "coldspray fit measured.csv --quantity beta --flow-stress '700 MPa'"
 
-NAMES = {name.replace("_", "-"): name for name in FITTABLE}
+FITTED_NAMES = {name.replace("_", "-"): name for name in FITTABLE}
 """What can be fitted, as it is typed."""
 
 
@@ -52,8 +52,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
         "name; of a 'diameter [um]' the radius is half",
     )  # fmt: skip
     parser.add_argument(
-        "--quantity", metavar="NAME", type=one_of("quantity", NAMES), default="resistance",
-        help=f"what is fitted: {', '.join(NAMES)} (default: %(default)s)",
+        "--quantity", metavar="NAME", type=one_of("quantity", FITTED_NAMES), default="resistance",
+        help=f"what is fitted: {', '.join(FITTED_NAMES)} (default: %(default)s)",
     )  # fmt: skip
     add_csv_and_json(parser, "print the measurements, with fitted depths and residuals, as CSV")
     add_quiet(parser)
@@ -63,7 +63,7 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Print the fitted value with its standard error, and the residual of every measurement."""
-    quantity, given = NAMES[options.quantity], given_inputs(options)
+    quantity, given = FITTED_NAMES[options.quantity], given_inputs(options)
     if "velocity" in given:
         raise ValueError("--velocity: the file has the velocities: leave it out")
     refuse_sought(quantity, given, "fitted")
@@ -78,8 +78,8 @@ def run(options: argparse.Namespace) -> int:
         fitted = fit(case, measurements, quantity)
     warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))
     inputs = _common_inputs(measurements)
-    if other := OTHER_FACTOR.get(quantity):
-        inputs[other] = fitted.resistance / fitted.value
+    if divisor := OTHER_FACTOR.get(quantity):
+        inputs[divisor] = fitted.resistance / fitted.value
     rows = _fitted_rows(fitted, measurements)
     write_picture(options, lambda: _fit_figure(options.file, fitted, measurements, inputs, points))
     record = {
@@ -180,7 +180,7 @@ def _fit_text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[s
         results.append(("chi square", f"{number(fitted.chi_square, 4)}, {freedom} expected"))
     return "\n".join(
         [
-            filled(inputs_in_words(inputs)),
+            paragraph(inputs_in_words(inputs)),
             "",
             *numbers((*heads, "over uncertainty") if weighted else heads, table),
             "",

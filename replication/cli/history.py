@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, times, whole
-from replication.cli.output import filled, put
+from replication.cli.output import paragraph, put
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.models.impact import Impact
 from replication.text import number, numbers
@@ -64,7 +64,7 @@ def run(options: argparse.Namespace) -> int:
         heads = ("time [ns]", "x [um]", "velocity [m/s]")
         lines = numbers(heads, ((time * 1e9, x * 1e6, v) for time, x, v in table))
         return "\n".join(
-            [filled(in_words(case)), "", *lines, "", f"stop time  {number(stop * 1e9, 8)} ns"]
+            [paragraph(in_words(case)), "", *lines, "", f"stop time  {number(stop * 1e9, 8)} ns"]
         )
 
     notes = notes_on(points)

@@ -37,7 +37,7 @@ def put(
     elif not (quietly and options.quiet):
         print(text())
         for note in () if options.quiet else notes:
-            print(filled(f"note: {note}", hanging="  "))
+            print(paragraph(f"note: {note}", hanging="  "))
     for warning in () if options.quiet else warnings:
         complain(f"coldspray {options.command}", f"warning: {warning}")
     return 0
@@ -80,7 +80,7 @@ def width(piped: int = 80) -> int:
     return shutil.get_terminal_size().columns if is_terminal() else piped
 
 
-def filled(text: str, indent: str = "", hanging: str = "") -> str:
+def paragraph(text: str, indent: str = "", hanging: str = "") -> str:
     """Wrap a text to the terminal, but to lines of at most 100 characters, which one can read.
 
     indent and hanging: blanks before the first line, and before the others.

@@ -125,6 +125,8 @@ def parse_command_line(
 def _similar(command: argparse.ArgumentParser, unknown: Sequence[str]) -> str:
     """Return which option was probably meant by the first unknown one."""
     given = next((text.partition("=")[0] for text in unknown if text.startswith("--")), "")
-    known = [name for name in command._option_string_actions if name.startswith("--")]
+    actions = command._option_string_actions
+    acts = [name for name in actions if actions[name].help is not argparse.SUPPRESS]
+    known = [name for name in acts if name.startswith("--")]
     meant = advice(given, known, otherwise="") if len(given) > 2 else ""
     return f"; {meant}" if meant else ""

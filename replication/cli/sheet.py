@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, doubted, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme
-from replication.cli.output import filled, put
+from replication.cli.output import paragraph, put
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
 from replication.models.sheet import Sheet
 from replication.text import number, numbers
@@ -65,7 +65,7 @@ def _sheet_text(sheet: Sheet) -> str:
         f"normalized depth  {number(sheet.normalized_depth, 8)}\n"
         f"steps             {sheet.steps}"
     )
-    case = filled(in_words(sheet.impact, step=True, stop=True))
+    case = paragraph(in_words(sheet.impact, step=True, stop=True))
     return "\n".join([case, "", *numbers(heads, table), "", results])
 
 

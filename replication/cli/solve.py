@@ -17,7 +17,7 @@ from replication.cli.case import (
     shown_in,
 )
 from replication.cli.options import add_json, add_quiet, one_of
-from replication.cli.output import filled, put, width
+from replication.cli.output import paragraph, put, width
 from replication.models.impact import Impact, InputError
 from replication.solve import DEPTHS, QUANTITIES, Solution, solve, solve_printed
 from replication.text import between, columns, number, with_unit
@@ -26,14 +26,14 @@ from replication.user_input import place, quoted, read_number
 HELP = "print the resistance, velocity, ... that gives a final depth"
 EXAMPLE = "coldspray solve resistance --depth '3.3 um' --rounded"
 
-NAMES = {name.replace("_", "-"): name for name in QUANTITIES}
+SOUGHT_NAMES = {name.replace("_", "-"): name for name in QUANTITIES}
 """The quantities, as they are typed."""
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "quantity", metavar="QUANTITY", type=_quantity,
-        help=f"what is sought: {', '.join(NAMES)}",
+        help=f"what is sought: {', '.join(SOUGHT_NAMES)}",
     )  # fmt: skip
     wanted = parser.add_mutually_exclusive_group(required=True)
     wanted.add_argument("--depth", metavar="X", help='final depth [m], such as "3.3 um"')
@@ -56,12 +56,12 @@ def _quantity(text: str) -> str:
             "it is solved for what gives a depth; the depth of a case is printed by `coldspray "
             "depth`"
         )
-    return one_of("quantity", NAMES)(text)
+    return one_of("quantity", SOUGHT_NAMES)(text)
 
 
 def run(options: argparse.Namespace) -> int:
     """Print the value, its range and its condition; status 1 if no value gives the depth."""
-    quantity, given = NAMES[options.quantity], given_inputs(options)
+    quantity, given = SOUGHT_NAMES[options.quantity], given_inputs(options)
     refuse_sought(quantity, given, "solved for")
     case, warnings = case_of(options)
     name = "normalized_depth" if options.depth is None else "depth"
@@ -79,7 +79,7 @@ def run(options: argparse.Namespace) -> int:
         radii = f"{depth / case.radius:.3g} times the radius"
         problem = f"the depth is {radii}: {error}"
         if meant := _meant(text, depth / case.radius):
-            problem = f'did you mean "{meant}"? ({problem})'
+            problem = f'the depth is {radii}: did you mean "{meant}"?'
         raise ValueError(f"{option(name)}: {problem}") from error
     if answer.value is not None:
         named = f"the {_without_underscores(quantity)} for this depth"
@@ -138,7 +138,7 @@ def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:
     if answer.condition is not None:
         means = "relative change of it for one of the depth"
         rows.append(("condition", f"{number(answer.condition, 3)}: {means}"))
-    return f"{filled(inputs_in_words(answer.inputs))}\n\n{columns(rows, min(width(), 100))}"
+    return f"{paragraph(inputs_in_words(answer.inputs))}\n\n{columns(rows, min(width(), 100))}"
 
 
 def _proven_range(answer: Solution, texts: Mapping[str, str]) -> str:

@@ -34,8 +34,10 @@ def add_options(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Write the file of the plan's cases, whole or not at all."""
+    from replication.models.arrays import import_numba
     from replication.sweep import check_output, read_plan, sweep_provenance, write_sweep
 
+    import_numba()  # what is wrong with its settings is no fault of the plan
     plan = read_plan(options.plan)
     output = options.output or Path(f"{options.plan.stem}.csv")
     check_output(output)

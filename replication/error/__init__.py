@@ -60,14 +60,14 @@ def warnings(sheet: Sheet) -> dict[str, str]:
         result["coarse"] = f"{text}: keep it to {COARSE} at most"
     rest = final_depth(**impact.motion)
     if last.depth > rest * (1 + DIGITS):
-        text = f"the depth exceeds that of the exact solution at rest, {rest:.6g} m"
+        text = f"the depth exceeds that of the exact solution at rest, {rest * 1e6:.6g} um"
         result["deep"] = f"{text}, by {in_percent(last.depth / rest - 1)}"
     at_stop = depth_at_velocity(impact.stop_velocity, **impact.motion)
     if abs(last.depth - at_stop) > OFF_STOP * at_stop and "deep" not in result:
         kind, relation = "overrun", "exceeds"
         if last.depth < at_stop:
             kind, relation = "shallow", "falls short of"
-        text = f"the depth {relation} the exact one at the stop velocity, {at_stop:.6g} m"
+        text = f"the depth {relation} the exact one at the stop velocity, {at_stop * 1e6:.6g} um"
         by = f", by {in_percent(abs(1 - last.depth / at_stop))}" if at_stop else ""
         cure = "take a shorter step" if at_stop else "the run begins at the stop velocity"
         result[kind] = f"{text}{by}: {cure}"

@@ -16,7 +16,7 @@ from replication.models.motion import stop_time
 from replication.models.sheet import MAX_STEPS, Sheet, run
 
 Budget = dict[str, float | None]
-Level = dict[str, Any]
+LevelJson = dict[str, Any]
 
 
 def exact_motion(impact: Impact) -> Trajectory:
@@ -94,7 +94,7 @@ def converge(
         raise ValueError("convergence needs two steps or more, each shorter than the one before")
     for step in steps:  # if one needs too many rows, fail before the long work
         run(replace(impact, step=step), scheme)
-    levels: list[Level] = []
+    levels: list[LevelJson] = []
     for step in steps:  # again, as a million rows for every step would not fit into memory
         sheet = run(replace(impact, step=step), scheme)
         levels.append(_level(sheet, levels[-1] if levels else None))
@@ -115,7 +115,7 @@ def converge(
     }
 
 
-def _level(sheet: Sheet, coarse: Level | None) -> Level:
+def _level(sheet: Sheet, coarse: LevelJson | None) -> LevelJson:
     step, (error, budget), doubts = sheet.impact.step, split(sheet), warnings(sheet)
     order = time_step_order = None
     if coarse:

@@ -18,8 +18,8 @@ from reference.scheme import Scheme
 from reference.signals import postponed_signals
 from replication.models import crater, depth, estimates, impact, inverse, motion, sheet
 from replication.models.impact import (
-    GREATEST,
-    LEAST,
+    GREATEST_INPUT,
+    LEAST_INPUT,
     InputError,
     check_each,
     check_inputs,
@@ -89,7 +89,7 @@ def _solving(model: Model, name: str) -> Model:
     def function(*values: Any, **named: Any) -> Any:
         if _are_plain(values) and (not named or _are_plain(named.values())):
             result = model(*values, **named)
-            if LEAST <= result <= GREATEST:
+            if LEAST_INPUT <= result <= GREATEST_INPUT:
                 return result
         bound = signature.bind(*values, **named)
         return _contained(partial(_solved, model, name), bound.arguments, (float,))
@@ -195,8 +195,8 @@ def history(
 
 def _are_plain(values: Iterable[Any]) -> bool:
     """Return whether all values are floats that need no further check (for the fast paths)."""
-    for value in values:  # noqa: SIM110 - a third of the time that `all` takes
-        if type(value) is not float or not LEAST <= value <= GREATEST:
+    for value in values:
+        if type(value) is not float or not LEAST_INPUT <= value <= GREATEST_INPUT:
             return False
     return True
 
@@ -237,7 +237,7 @@ def _histories(*values: Any) -> Any:
 
 def run_many(
     velocity: Any, radius: Any, particle_density: Any, target_density: Any, resistance: Any,
-    step: Any = impact.STEP, stop_velocity: Any = impact.STOP_VELOCITY,
+    step: Any = impact.DEFAULT_STEP, stop_velocity: Any = impact.STOP_VELOCITY,
     scheme: str = Scheme.PUBLISHED,
 ) -> Any:  # fmt: skip
     """Final depth X [m] and number of steps of the report's sheet, for cases that broadcast.
@@ -313,7 +313,9 @@ def _are_floats(numbers: Mapping[str, Any]) -> bool:
 
 def _in_range(numbers: Mapping[str, Any]) -> bool:
     """Return whether no product of these numbers can leave the range of doubles."""
-    return all(_is_within(number, least_usual(name), GREATEST) for name, number in numbers.items())
+    return all(
+        _is_within(number, least_usual(name), GREATEST_INPUT) for name, number in numbers.items()
+    )
 
 
 def _is_within(number: Any, least: float, greatest: float) -> bool:
@@ -394,8 +396,8 @@ def _doubtful(
 ) -> Iterator[tuple[tuple[int, ...], float, dict[str, float]]]:
     """Yield index, result and inputs of each element that has to be checked by itself.
 
-    Those are elements with an input outside of `LEAST` to `GREATEST`, or whose result is not
-    finite; of solutions, which are inputs themselves, outside of that range, too.
+    Those are elements with an input outside of `LEAST_INPUT` to `GREATEST_INPUT`, or whose result
+    is not finite; of solutions, which are inputs themselves, outside of that range, too.
     """
     if _are_floats({**numbers, "the result": result}):
         yield (), result, dict(numbers)  # one case is checked in any event, and needs no NumPy
@@ -416,7 +418,9 @@ def _unusual(arrays: Sequence[Any]) -> Any:
     """Return where any of the arrays leaves the range in which no product has to be checked."""
     import numpy as np
 
-    return np.any([~((array >= LEAST) & (array <= GREATEST)) for array in arrays], axis=0)
+    return np.any(
+        [~((array >= LEAST_INPUT) & (array <= GREATEST_INPUT)) for array in arrays], axis=0
+    )
 
 
 def _at_place(
@@ -499,7 +503,7 @@ def _evaluated(
     """
     import numpy as np
 
-    if not all(map(_is_within, values, least, repeat(GREATEST))):
+    if not all(map(_is_within, values, least, repeat(GREATEST_INPUT))):
         raise _UnusualError
     with np.errstate(all="ignore"):
         results = function(*values, **options)
@@ -535,8 +539,6 @@ def _compiled(model: Model, alone: bool) -> Any:
     from filelock import FileLock
     from numba import b1, f8, i8, types, void
 
-    if numba.config.DISABLE_JIT:
-        raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
     _make_known()
     line = types.Array(f8, 1, "C", readonly=True)
     compilers = {
@@ -595,6 +597,8 @@ def import_numba() -> Any:
         except ValueError as error:  # its message does not name the variable, NUMBA_NUM_THREADS
             named = f"an environment variable NUMBA_...: {error} Correct or unset it"
             raise ValueError(named) from error
+    if numba.config.DISABLE_JIT:
+        raise ValueError("arrays need Numba's compiler: unset NUMBA_DISABLE_JIT")
     return numba
 
 

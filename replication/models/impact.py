@@ -5,12 +5,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any
 
-STEP, STOP_VELOCITY = 2e-10, 1.0
+DEFAULT_STEP, STOP_VELOCITY = 2e-10, 1.0
 """The report's time step [s], and the velocity [m/s] below which its sheet stops."""
 
 MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity", "particle_strength"})
 
-LEAST, GREATEST = 1e-40, 1e40
+LEAST_INPUT, GREATEST_INPUT = 1e-40, 1e40
 """`check_range` accepts all inputs in this range, as its products have at most six factors."""
 
 
@@ -54,7 +54,7 @@ class Impact:
     beta: float | None = None
     flow_stress: float | None = None
     resistance: float | None = None
-    step: float = STEP
+    step: float = DEFAULT_STEP
     stop_velocity: float = STOP_VELOCITY
 
     def __post_init__(self) -> None:
@@ -170,7 +170,7 @@ def least_usual(name: str) -> float:
     >>> least_usual("velocity"), least_usual("at_velocity")
     (1e-40, 0.0)
     """
-    return 0.0 if name in MAY_BE_ZERO else LEAST
+    return 0.0 if name in MAY_BE_ZERO else LEAST_INPUT
 
 
 def are_within(values: Sequence[float], least: float, greatest: float) -> bool:
@@ -187,13 +187,16 @@ def are_within(values: Sequence[float], least: float, greatest: float) -> bool:
 
 
 def check_each(**inputs: float) -> None:
-    """Raise InputError for the first input, but for a zero, outside of `LEAST` to `GREATEST`.
+    """Raise InputError for the first input that is not in range; zero may be.
 
-    For formulas with inputs that `check_range` does not know, this keeps every product in range.
+    The range is `LEAST_INPUT` to `GREATEST_INPUT`. For formulas with inputs that `check_range` does
+    not know, this keeps every product in range.
     """
     for name, value in inputs.items():
-        if value and not LEAST <= value <= GREATEST:
-            problem = f"is {value!r}: it is computed with from {LEAST:g} to {GREATEST:g}"
+        if value and not LEAST_INPUT <= value <= GREATEST_INPUT:
+            problem = (
+                f"is {value!r}: it is computed with from {LEAST_INPUT:g} to {GREATEST_INPUT:g}"
+            )
             raise InputError(name, problem)
 
 

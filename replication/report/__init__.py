@@ -111,7 +111,7 @@ def _from_template(name: str, prose: Prose, parts: Mapping[str, Any]) -> str:
 
 # For a terminal
 
-FINDINGS = 3
+FINDINGS_ON_SCREEN = 3
 """The number of findings that fit on one screen."""
 
 
@@ -122,8 +122,8 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
         "words": words,
         "not_as_printed": tables.not_as_printed(record),
         "main": tables.main_results(record),
-        "findings": record.findings[:FINDINGS],
-        "more": len(record.findings[FINDINGS:]),
+        "findings": record.findings[:FINDINGS_ON_SCREEN],
+        "more": len(record.findings[FINDINGS_ON_SCREEN:]),
     }
     by_title = TERMINAL._replace(known="{title}")
     prose = Prose(by_title, record.symbols, words.names_of(record))

@@ -242,7 +242,7 @@ class Arrangement:
     def sources(self) -> list[SourcesPart]:
         """What is compared with public sources, claims first."""
         claims = [(record.id, "printed", record.sources) for record in self.record.claims]
-        inputs = [(INFERRED + one.id, "assumed", one.sources) for one in self.record.inferred]
+        inputs = [(INFERRED + entry.id, "assumed", entry.sources) for entry in self.record.inferred]
         shown = self.groups["sources"]
         return [
             SourcesPart(name, self.names[name], origin, shown.get(name), comparisons)

@@ -14,13 +14,13 @@ from replication.audit.record import Record
 from replication.report.words import shown_range
 from spreadsheets.styles import CURVES
 
-INK, SHADE = "currentColor", "#8c959f"
+PAGE_INK, PAGE_SHADE = "currentColor", "#8c959f"
 """The color of the surrounding text, and a gray for what is not a case of the report. The cases
 have the colors and marks of their curves in the workbook."""
 
 WIDTH = 440
 
-Points = Iterable[tuple[float, float]]
+PlanePoints = Iterable[tuple[float, float]]
 
 
 def draw_figures(record: Record) -> dict[str, str]:
@@ -61,7 +61,7 @@ class _Plot:
         height = f"{self.top + self.height + self.below:.0f}"
         head = (
             f'<svg xmlns="http://www.w3.org/2000/svg" class="figure" role="img" color="#1f2328" '
-            f'fill="{INK}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="12" '
+            f'fill="{PAGE_INK}" font-family="DejaVu Sans, Verdana, sans-serif" font-size="12" '
             f'width="{WIDTH}" height="{height}" viewBox="0 0 {WIDTH} {height}" '
             f'aria-labelledby="{name}-title {name}-words">',
             f'<title id="{name}-title">{escape(self.title)}</title>',
@@ -107,10 +107,10 @@ class _Plot:
         for k, line in enumerate(lines):
             self.text(x, middle + 4 + 13 * (k - (len(lines) - 1) / 2), line, "end")
 
-    def line(self, points: Points, color: str = INK, dashes: str = "") -> None:
+    def line(self, points: PlanePoints, color: str = PAGE_INK, dashes: str = "") -> None:
         self.path([self.at(*point) for point in points], color, dashes)
 
-    def marks(self, kind: str, color: str, points: Points) -> None:
+    def marks(self, kind: str, color: str, points: PlanePoints) -> None:
         for point in points:
             self.mark(kind, color, *self.at(*point))
 
@@ -138,17 +138,17 @@ class _Plot:
 
     def mark(self, kind: str, color: str, x: float, y: float) -> None:
         """Draw a mark; a hollow one is larger than a filled one, so that both can be seen."""
-        filled, shape = not kind.startswith("hollow"), kind.rpartition(" ")[2]
-        r = 3.5 if filled else 5.0
+        is_filled, shape = not kind.startswith("hollow"), kind.rpartition(" ")[2]
+        r = 3.5 if is_filled else 5.0
         place = f'rect x="{_n(x - r)}" y="{_n(y - r)}" width="{2 * r}" height="{2 * r}"'
         if shape == "circle":
             place = f'circle cx="{_n(x)}" cy="{_n(y)}" r="{r}"'
         turn = f' transform="rotate(45 {_n(x)} {_n(y)})"' if shape == "diamond" else ""
-        fill = color if filled else "none"
+        fill = color if is_filled else "none"
         self.parts.append(f'<{place} fill="{fill}" stroke="{color}"{turn}/>')
 
     def path(
-        self, points: Points, color: str = INK, dashes: str = "", opacity: float = 1.0
+        self, points: PlanePoints, color: str = PAGE_INK, dashes: str = "", opacity: float = 1.0
     ) -> None:
         path = " ".join(f"{_n(x)},{_n(y)}" for x, y in points)
         faint = f' stroke-opacity="{opacity}"' if opacity < 1 else ""
@@ -187,20 +187,20 @@ def _approaches_plot(record: Record) -> _Plot:
     title = "Normalized depth by every approach of the report"
     height = 30 * len(shown)
     plot = _Plot(title, (190, 8, 240, height), (0, 1.1), (len(shown) - 0.5, -0.5), below=132)
-    plot.bar(min(observed), max(observed), (len(shown) - 1) / 2, SHADE, plot.height)
+    plot.bar(min(observed), max(observed), (len(shown) - 1) / 2, PAGE_SHADE, plot.height)
     plot.axes([k / 5 for k in range(6)], [], "Normalized depth X/R")
     plot.rows([f"{a.kind}: {a.name}".replace(", ", ",; ").replace("beta", "β") for a in shown])
     for y, a in enumerate(shown):
-        kind, color = ("diamond", INK) if a.beta is None else _look(a.beta)
+        kind, color = ("diamond", PAGE_INK) if a.beta is None else _look(a.beta)
         if a.shown:
             plot.marks(f"hollow {kind}", color, [(float(a.shown), y)])
         if a.computed is not None:
             plot.marks(kind, color, [(a.computed, y)])
     plot.legend(100, height + 60, {
         **{f"computed, β = {beta}": _look(float(beta)) for beta in CURVES},
-        "computed, Frank and Zook": ("diamond", INK),
-        "hollow: as the report prints or quotes it": ("hollow diamond", INK),
-        f"observed, {min(observed):.3f} to {max(observed):.3f}": ("line", SHADE),
+        "computed, Frank and Zook": ("diamond", PAGE_INK),
+        "hollow: as the report prints or quotes it": ("hollow diamond", PAGE_INK),
+        f"observed, {min(observed):.3f} to {max(observed):.3f}": ("line", PAGE_SHADE),
     })  # fmt: skip
     values = []
     for a in record.approaches:
@@ -243,7 +243,7 @@ def _figure_3(record: Record) -> _Plot:
     title = "Penetration depth against time, as in Figure 3 of the report"
     plot = _Plot(title, (44, 8, 386, 260), (0, 46), (0, 11.5))
     plot.axes(range(0, 41, 10), range(0, 11, 2), "Time [ns]", "Penetration depth [µm]")
-    legend, words = {"exact": ("line", INK)}, []
+    legend, words = {"exact": ("line", PAGE_INK)}, []
     for curve in record.curves:
         look = _look(curve.beta)
         exact, sheet = (
@@ -279,12 +279,12 @@ def _figure_5(record: Record) -> _Plot:
     plot.axes(range(400, 501, 20), ratios, "Impact velocity [m/s]", "Normalized depth X/R")
     observed = next(float(a.shown) for a in record.approaches if a.kind == "observed" and a.shown)
     plot.line(zip(curve.velocity, curve.exact, strict=True))
-    plot.line([(x, observed) for x in plot.x], INK, "5 3")
+    plot.line([(x, observed) for x in plot.x], PAGE_INK, "5 3")
     plot.marks(*_look(5), list(zip(curve.velocity, curve.sheet, strict=True))[::2])
     plot.legend(290, 180, {
-        "exact": ("line", INK),
+        "exact": ("line", PAGE_INK),
         "the sheet, β = 5": _look(5),
-        f"observed, {observed}": ("dashed line", INK),
+        f"observed, {observed}": ("dashed line", PAGE_INK),
     })  # fmt: skip
     plot.words = (
         f"For β = 5, X/R rises almost in proportion to the velocity, from {curve.exact[0]:.3f} at "

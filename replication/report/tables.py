@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping
 from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN
 from fractions import Fraction
 
-from reference.ledger import Ledger
+from reference.ledger import Claim, Ledger
 from reference.scheme import Scheme
 from replication.audit import record as r
 from replication.audit.assessment import Comparison, ConfirmedRange, Reading
@@ -83,11 +83,12 @@ MAIN = (
 def main_results(record: r.Record) -> Table:
     """Return the report's main results, as printed and as computed.
 
-    A verdict that is the same for all stands in the title.
+    A verdict that is the same for all stands in the title. A number that is computed from another
+    main result, as printed and not as computed, says so.
     """
     shown = [c for c in record.claims if c.id in MAIN and c.computed is not None]
     rows = [
-        (c.claim.title, printed_with_unit(c.claim), measured(c.computed, c.claim.unit))
+        (_title(record, c.claim), printed_with_unit(c.claim), measured(c.computed, c.claim.unit))
         for c in shown
     ]
     verdicts = dict.fromkeys(c.verdict for c in shown)
@@ -96,6 +97,13 @@ def main_results(record: r.Record) -> Table:
         return Table(title, ("number", "printed", "computed"), rows)
     judged = [(*row, c.verdict) for row, c in zip(rows, shown, strict=True)]
     return Table("Main results", ("number", "printed", "computed", "verdict"), judged)
+
+
+def _title(record: r.Record, claim: Claim) -> str:
+    """Return a claim's title, and which main result as printed it is computed from, if any."""
+    used = [other.claim for other in record.claims if other.id in {*claim.entries} & {*MAIN}]
+    printed = " and ".join(map(printed_with_unit, used))
+    return f"{claim.title}, from the printed {printed}" if used else claim.title
 
 
 def not_as_printed(record: r.Record) -> Table:

@@ -4,6 +4,8 @@ They are plain text, with ids between backticks: `Prose` typesets them.
 """
 
 from collections.abc import Mapping, Sequence
+from decimal import ROUND_CEILING
+from fractions import Fraction
 
 from reference.ledger import Claim, Convention
 from replication.audit import record as r
@@ -11,7 +13,7 @@ from replication.audit.assessment import Verdict
 from replication.cases import INPUTS
 from replication.power import Power
 from replication.report.prose import Named, plain_quotation
-from replication.text import between, number, quantity
+from replication.text import between, number, quantity, rounded
 
 ABOUT = (
     "The report, on cold spray, asks how deep a metal particle penetrates the surface that it "
@@ -40,6 +42,9 @@ ABOUT_REMARKS = (
     "What the report says of its results in words gets no verdict. The figures below help to judge "
     "it; of several the first tells most."
 )
+
+TAKEN_EXACTLY = "taken exactly as the rest of the header"
+"""The condition under which the printed mass excludes the density that is assumed."""
 
 MEANINGS: Mapping[Verdict, str] = {
     Verdict.REPRODUCED: "the value computed from the inputs as printed rounds to the "
@@ -132,14 +137,14 @@ def names_of(record: r.Record) -> dict[str, Named]:
 
 
 def counts_in_words(counts: r.Counts) -> str:
-    """Say how many numbers and equations come out as printed."""
-    numbers = "number does" if counts.failing == 1 else "numbers do"
+    """Say more of the numbers that come out than `counted_briefly`, and how many equations do."""
+    tell_less = counts.reproduced - counts.independent
     equations = "does" if counts.equations_failing == 1 else "do"
     return (
-        f"{counts.independent} numbers that could have failed by themselves come out as printed, "
-        f"and {counts.failing} {numbers} not follow from what the report says. "
-        f"{counts.reproduced - counts.independent} more of its {counts.numbers} numbers come out, "
-        f"but tell less: from {counts.evidence} the target density was inferred, "
+        f"For one of these {counts.independent} to fail, any of several printed numbers, or the "
+        f"equation that computes it, would have to be wrong. {tell_less} more of the report's "
+        f"{counts.numbers} numbers come out, but tell less: from {counts.evidence} the target "
+        "density was inferred, "
         f"{counts.by_definition} only scale, multiply or pick printed numbers, {counts.repeats} "
         f"repeat an earlier one, and {counts.constants} are factors and powers in its equations. "
         f"Of the {counts.equations} equations, {counts.equations_derived} follow from earlier ones "
@@ -150,9 +155,11 @@ def counts_in_words(counts: r.Counts) -> str:
 
 def counted_briefly(counts: r.Counts) -> str:
     """Say how many numbers could have failed and did not, and how many fail."""
+    bounds = "a bound" if counts.bounds == 1 else "bounds"
     numbers = "does" if counts.failing == 1 else "do"
     return (
-        f"{counts.independent} numbers that could have failed by themselves come out as printed; "
+        f"{counts.independent} numbers, {counts.bounds} of them {bounds}, could have failed by "
+        "themselves and come out as printed; "
         f"{counts.failing} {numbers} not follow from what the report says."
     )
 
@@ -170,14 +177,15 @@ def if_choices_are_rounded(record: r.Record) -> str:
     ]
     if not named:
         return ""
-    return f"Only if what the author chose is rounded, too, these come out: {', '.join(named)}."
+    come_out = "this comes out" if len(named) == 1 else "these come out"
+    return f"Only if what the author chose is rounded, too, {come_out}: {', '.join(named)}."
 
 
 def density(record: r.Record) -> str:
     """Say what the target density rests on: inferred, and not with the printed mass."""
     usual, names = record.inferred[0], {claim.id: claim.claim for claim in record.claims}
     entry, mass = usual.entry, names[usual.entry.mass]
-    greatest = number(usual.with_printed_mass[1], 6)
+    greatest = rounded(Fraction(usual.with_printed_mass[1]), 6, ROUND_CEILING)
     taken = number(usual.assumed)
     sentence = (
         f"The report prints no {entry.title}. It is inferred from {len(entry.evidence)} cells of "
@@ -185,8 +193,8 @@ def density(record: r.Record) -> str:
     )
     if usual.assumed > usual.with_printed_mass[1]:
         sentence += (
-            f": with the printed mass no more than {quantity(greatest, entry.unit)} is possible, "
-            f"so not the {taken} taken"
+            f": with that, {TAKEN_EXACTLY}, no more than "
+            f"{quantity(greatest, entry.unit)} is possible, so not the {taken} assumed"
         )
     return f"{sentence}."
 

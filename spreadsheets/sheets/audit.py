@@ -8,7 +8,7 @@ from spreadsheets.plan import (
     NOT_COMPUTED,
     YES_OR_NO,
     Cell,
-    Place,
+    CellPlace,
     Rule,
     SheetPlan,
     formula,
@@ -64,7 +64,7 @@ def verdict_colors(cells: str) -> list[Rule]:
 
 
 def audit_sheet(
-    ledger: Ledger, audited: AuditResult, computed_in: Mapping[str, Place]
+    ledger: Ledger, audited: AuditResult, computed_in: Mapping[str, CellPlace]
 ) -> SheetPlan:
     """Plan the sheet of all claims; `computed_in` is the cell that computes a claim, by its id."""
     about = "Every printed number: what prints like it, computed value, verdict, its cell"
@@ -111,7 +111,7 @@ def _claim_row(ledger: Ledger, claim: Claim, audited: AuditResult) -> dict[str, 
     }
 
 
-def _live(claim: Claim, place: Place, row: int) -> dict[str, Cell]:
+def _live(claim: Claim, place: CellPlace, row: int) -> dict[str, Cell]:
     """Return the value of the cell that computes a claim, the printed interval and the verdict."""
     # Fixed decimals for most numbers, powers of ten for those that would be long.
     size = 0 if claim.printed is None else abs(claim.printed.value)

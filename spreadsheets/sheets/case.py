@@ -17,8 +17,8 @@ from spreadsheets.sheets.formulas import cap_angle, depth, log1p
 FIRST_ROW = 10
 """The row of the sheet that holds row 0 of the scheme, the impact itself."""
 
-_LAST_PRINTED = 82
-"""The last row of the sheet that is printed: a single page, in type of 7 points."""
+_LAST_OF_A_PAGE = 82
+"""The last row of the sheet that a single page has room for, in type of 7 points."""
 
 MAX_ROWS = 20_000
 """The most rows of a sheet; to write them takes half a minute and gigabytes of memory."""
@@ -158,7 +158,7 @@ class RowColumn(NamedTuple):
     like: str = ""
 
 
-COLUMNS: Mapping[str, RowColumn] = {
+ROW_COLUMNS: Mapping[str, RowColumn] = {
     "A": RowColumn("Row", "index"),
     "B": RowColumn("Time", "time", "s", "0.00E+00"),
     "C": RowColumn("dx/dt initial", "velocity_initial", "m/s", "0.000", "velocity"),
@@ -197,7 +197,7 @@ def _rows(sheet: SheetPlan, case: CaseSheet) -> str:
     letters = "ABCDEFGH" if case.scheme is Scheme.CENTERED else "ABCDEFG"
     rows = [_row_formulas(case, step) for step in range(case.rows + 1)]
     for letter in letters:
-        column = COLUMNS[letter]
+        column = ROW_COLUMNS[letter]
         cells = [
             formula(
                 f"{case.part}.row.{column.key}[{step}]", formulas[letter],
@@ -239,9 +239,8 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         width=160,
     )
     sheet.say(
-        f"The run stops with the first row below v_stop. Rows 0 to {_LAST_PRINTED - FIRST_ROW} are"
-        f" printed, on one page with the results. {case.rows} rows are prepared; coldspray workbook"
-        f" prepares N, up to {MAX_ROWS}, with the same options and --rows N.",
+        f"The run stops with the first row below v_stop. {case.rows} rows are prepared; coldspray"
+        f" workbook prepares N, up to {MAX_ROWS}, with the same options and --rows N.",
         width=160,
     )
     top = sheet.row = FIRST_ROW - 2
@@ -257,9 +256,11 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     if case.coarse:
         _comparison(sheet, case)
     sheet.headed = "A", top, top + 1
-    # Not every program follows a print area that is a formula. This one needs not follow the run.
-    sheet.print_area = f"A1:M{_LAST_PRINTED}"
-    sheet.portrait = sheet.one_page = True
+    # It ends where the run of this workbook ends. A print area that is a formula, and follows a run
+    # that is changed later, is not understood by every program.
+    last = max(FIRST_ROW + case.steps, sheet.row - 1)
+    sheet.print_area, sheet.portrait = f"A1:M{last}", True
+    sheet.one_page = last <= _LAST_OF_A_PAGE
     used = f"A{FIRST_ROW}:{last_column}{FIRST_ROW + case.rows}"
     sheet.rules = [
         Rule(used, f"=ISNUMBER($A{FIRST_ROW})", "ruled"),
@@ -495,8 +496,8 @@ def _renamed(sheet: SheetPlan, case: CaseSheet) -> None:
     s = case.suffix
     sheet.row += 1
     sheet.block("Is β the one of the sheet’s name?")
-    other = f'=IF({_beta(case)}="{case.label}",0,1)'
-    sheet.line(f"other_beta{s}", "", "β is another one", other, shown=YES_OR_NO)
+    is_another = f'=IF({_beta(case)}="{case.label}",0,1)'
+    sheet.line(f"other_beta{s}", "", "β is another one", is_another, shown=YES_OR_NO)
     # That its time step is not longer matters more.
     renamed = f"=IF(longer{s}=1,other_beta{s},0)" if case.coarse else f"=other_beta{s}"
     sheet.state(f"renamed{s}", "I2 says so", renamed, messages.KEEPS_NAME)

@@ -3,7 +3,16 @@
 from collections.abc import Mapping, Sequence
 
 from reference.ledger import Ledger
-from spreadsheets.plan import Cell, Chart, ChartCurve, Rule, SheetPlan, Value, formula, recorded
+from spreadsheets.plan import (
+    Cell,
+    Chart,
+    ChartCurve,
+    Rule,
+    SheetPlan,
+    ShownValue,
+    formula,
+    recorded,
+)
 from spreadsheets.sheets import messages
 from spreadsheets.sheets.case import CaseSheet
 from spreadsheets.sheets.inputs import input_lines
@@ -127,7 +136,7 @@ def _levels(sheet: SheetPlan, case: CaseSheet, first: int) -> None:
 
 
 def _chart(cases: Sequence[CaseSheet], curves: Sequence[ChartCurve]) -> Chart:
-    def describe(values: Mapping[str, Value]) -> str:
+    def describe(values: Mapping[str, ShownValue]) -> str:
         ends = []
         for case in cases:
             part = f"convergence.{case.slug}"

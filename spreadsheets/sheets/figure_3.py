@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 from reference.ledger import Ledger
-from spreadsheets.plan import Cell, Chart, ChartCurve, SheetPlan, Value, formula
+from spreadsheets.plan import Cell, Chart, ChartCurve, SheetPlan, ShownValue, formula
 from spreadsheets.sheets.case import FIRST_ROW, CaseSheet
 
 _FIRST = 7
@@ -30,7 +30,7 @@ def figure_3(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         x, y = (f"{column}{_FIRST}:{column}{_FIRST + case.rows}" for column in columns)
         curves.append(ChartCurve((case.name, "I1"), x, y, case.beta))
 
-    def describe(values: Mapping[str, Value]) -> str:
+    def describe(values: Mapping[str, ShownValue]) -> str:
         ends = ", ".join(
             f"{case.label} reaches {values[f'depth_um{case.suffix}']:.4g} µm after"
             f" {values[f'figure_3.{case.slug}.time[{case.rows}]']:.3g} ns"

@@ -3,16 +3,16 @@
 from collections.abc import Mapping
 
 from reference.ledger import Ledger
-from spreadsheets.plan import Cell, Chart, ChartCurve, Rule, SheetPlan, Value, formula
+from spreadsheets.plan import Cell, Chart, ChartCurve, Rule, SheetPlan, ShownValue, formula
 from spreadsheets.sheets import messages
 from spreadsheets.sheets.case import CaseSheet
 from spreadsheets.sheets.formulas import cap_angle, depth, log1p
 
-POINTS = 21
+FIGURE_5_POINTS = 21
 """Number of velocities, including both ends."""
 
 _FIRST = 7
-_LAST = _FIRST + POINTS - 1
+_LAST = _FIRST + FIGURE_5_POINTS - 1
 
 
 def figure_5(ledger: Ledger, case: CaseSheet) -> SheetPlan:
@@ -23,9 +23,9 @@ def figure_5(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     sheet.wide("P", 8)
     sheet.wide("QRSTUVW", 12)
     points = f"COUNT(V{_FIRST}:V{_LAST})"
-    message = f'=IF({points}<{POINTS},"{messages.POINTS_MISSING}","{messages.ALL_POINTS}")'
+    message = f'=IF({points}<{FIGURE_5_POINTS},"{messages.POINTS_MISSING}","{messages.ALL_POINTS}")'
     sheet.cells["A3"] = formula("figure_5.message", message, "message")
-    sheet.rules = [Rule("A3", f"={points}<{POINTS}", "warning")]
+    sheet.rules = [Rule("A3", f"={points}<{FIGURE_5_POINTS}", "warning")]
     sheet.cells["P2"] = Cell("p, c and h as on the sheets of the cases.", "note")
     sheet.row = 4
     sheet.say(
@@ -36,11 +36,11 @@ def figure_5(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     sheet.row = _FIRST - 2
     _points(sheet, case)
 
-    def describe(values: Mapping[str, Value]) -> str:
+    def describe(values: Mapping[str, ShownValue]) -> str:
         low, high = (
             f"{values[f'figure_5.normalized_depth[{k}]']:.3g} at"
             f" {values[f'figure_5.velocity[{k}]']:.4g} m/s"
-            for k in (0, POINTS - 1)
+            for k in (0, FIGURE_5_POINTS - 1)
         )
         return (
             "Line chart: normalized depth X/R at rest against impact velocity in m/s. As written,"
@@ -75,7 +75,9 @@ def _points(sheet: SheetPlan, case: CaseSheet) -> None:
         ]
         sheet.column(letter, head, unit, cells)
 
-    sheet.column("P", "Point", "", [Cell(number=float(k), style="number") for k in range(POINTS)])
+    sheet.column(
+        "P", "Point", "", [Cell(number=float(k), style="number") for k in range(FIGURE_5_POINTS)]
+    )
     velocities = [f"=V_from+(V_to-V_from)*P{row}/P{_LAST}" for row in rows]
     column("Q", "Velocity", "m/s", "velocity", velocities, shown="General")
     pressures = [f"=rho_t*Q{row}*Q{row}/2/{case.resistance}" for row in rows]

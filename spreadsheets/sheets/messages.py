@@ -19,7 +19,7 @@ INPUTS_SAY = {
 COMPLETE = "Complete: the velocity is below v_stop."
 EARLY = "Complete, but v_stop ends it before rest."
 REVERSED = "Complete; the last step reverses the velocity."
-COARSE = "DO NOT TRUST IT: the time step is too long."
+STEP_TOO_LONG = "DO NOT TRUST IT: the time step is too long."
 DOUBTFUL = "DO NOT TRUST IT: its depth is off the exact one."
 ONE_STEP = "DO NOT TRUST IT: a single step ends the run."
 NO_STEPS = "NO STEPS: the impact velocity is below v_stop."
@@ -32,7 +32,7 @@ RUN_SAYS = {
     "rows": OUT_OF_ROWS,
     "no_steps": NO_STEPS,
     "one_step": ONE_STEP,
-    "coarse": COARSE,
+    "coarse": STEP_TOO_LONG,
     "off": DOUBTFUL,
     "reversed": REVERSED,
     "early": EARLY,

@@ -10,7 +10,7 @@ from spreadsheets.plan import (
     HOME,
     ROW_HEIGHT,
     Cell,
-    Place,
+    CellPlace,
     Rule,
     SheetPlan,
     formula,
@@ -30,7 +30,7 @@ def program() -> str:
 
 def overview(
     ledger: Ledger, pages: Sequence[CaseSheet], sheets: Sequence[SheetPlan],
-    audited: AuditResult | None, computed_in: Mapping[str, Place],
+    audited: AuditResult | None, computed_in: Mapping[str, CellPlace],
 ) -> SheetPlan:  # fmt: skip
     """Plan the first sheet; `sheets` are the others, to which it links.
 
@@ -125,7 +125,7 @@ def _figure(sheet: SheetPlan, sheets: Sequence[SheetPlan]) -> None:
     sheet.row += _FIGURE_ROWS
 
 
-def _failures(sheet: SheetPlan, audited: AuditResult, computed_in: Mapping[str, Place]) -> None:
+def _failures(sheet: SheetPlan, audited: AuditResult, computed_in: Mapping[str, CellPlace]) -> None:
     """Add the claims that fail, each with its explanation, and the counts of all verdicts."""
     beside = "The report prints", "Inputs in use", "Why, with the report’s inputs"
     _heads(sheet, "What does not follow from the report", *beside, right="BC")
@@ -151,7 +151,7 @@ def _failures(sheet: SheetPlan, audited: AuditResult, computed_in: Mapping[str, 
 
 
 def _failure(
-    sheet: SheetPlan, name: str, audited: AuditResult, computed_in: Mapping[str, Place]
+    sheet: SheetPlan, name: str, audited: AuditResult, computed_in: Mapping[str, CellPlace]
 ) -> None:
     ledger = sheet.ledger
     first, *more = wrap(audited.explanations[name], 100)

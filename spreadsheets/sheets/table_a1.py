@@ -10,8 +10,8 @@ from reference.ledger import Claim, Ledger
 from reference.scheme import Scheme
 from spreadsheets.plan import HOME, Cell, SheetPlan, formula, printed
 from spreadsheets.sheets.case import (
-    COLUMNS,
     FIRST_ROW,
+    ROW_COLUMNS,
     CaseSheet,
     if_in_use,
     next_index,
@@ -72,7 +72,7 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         sheet.cells[f"{column}{_FIRST - 1}"] = Cell(head, style)
     for step in range(TABLE_ROWS):
         for column, expression in _row(case, step).items():
-            key = {"A": "time", _MIDDLE: "velocity_middle"}.get(column) or COLUMNS[column].key
+            key = {"A": "time", _MIDDLE: "velocity_middle"}.get(column) or ROW_COLUMNS[column].key
             live(f"{column}{_FIRST + step}", f"row.{key}[{step}]", expression)
     if report:
         sheet.cells |= _as_printed(ledger, claims)
@@ -91,8 +91,8 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
 
 
 def _heads(centered: bool) -> dict[str, str]:
-    heads = {"A": "Time", "B": "", **{letter: COLUMNS[letter].head for letter in "CDEF"}}
-    return heads | ({_MIDDLE: COLUMNS["H"].head} if centered else {})
+    heads = {"A": "Time", "B": "", **{letter: ROW_COLUMNS[letter].head for letter in "CDEF"}}
+    return heads | ({_MIDDLE: ROW_COLUMNS["H"].head} if centered else {})
 
 
 def _row(case: CaseSheet, step: int) -> dict[str, str]:

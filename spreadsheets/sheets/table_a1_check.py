@@ -5,7 +5,7 @@ from spreadsheets.plan import Cell, SheetPlan, formula, recorded, unit_text
 from spreadsheets.sheets.audit import row_of, verdict_colors
 from spreadsheets.sheets.table_a1 import claims_in_table
 
-DIGITS = 4
+DECIMALS = 4
 """Decimals of a difference; rounding makes 0 of 3 times 0.2 ns minus 0.6 ns."""
 
 NO_DIFFERENCE = "–"
@@ -32,7 +32,7 @@ def table_a1_check(ledger: Ledger, table: SheetPlan) -> SheetPlan:
     for address, claim in claims_in_table(ledger).items():
         number = claim.number
         row, key = sheet.row, f"table_check.{address}"
-        difference = f"ROUND((E{row}-D{row})/H{row},{DIGITS})"
+        difference = f"ROUND((E{row}-D{row})/H{row},{DECIMALS})"
         if claim.is_exact:
             difference = f"E{row}-D{row}"
         difference = f'=IF(ISNUMBER(E{row}),{difference},"{NO_DIFFERENCE}")'

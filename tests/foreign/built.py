@@ -185,8 +185,8 @@ class _Builder:
         slip = self.slip
         if slip and (slip.name, slip.given or slip.column) in (("label", name), ("head", name)):
             power = self.plan.units[name].power
-            other = [u.name for u in UNITS[name] if u.power not in (power, None)]
-            return random.Random(f"unit {self.plan.seed}").choice(other)
+            different = [u.name for u in UNITS[name] if u.power not in (power, None)]
+            return random.Random(f"unit {self.plan.seed}").choice(different)
         return unit
 
     # inputs

@@ -79,12 +79,12 @@ def slips(plan: Plan) -> list[Slip]:
     r = random.Random(f"slip {plan.seed}")
     shown = {name: plan.shown(name) for name in ("area", "pressure", BRAKE, DEPTH, END)}
     n = plan.steps
-    found = [Slip(name, shown[where], r.randrange(3, n - 1)) for name, where in IN_A_ROW]
-    found += [Slip(name, shown[where]) for name, where in IN_A_ROW if name in OF_A_COLUMN]
+    all_slips = [Slip(name, shown[where], r.randrange(3, n - 1)) for name, where in IN_A_ROW]
+    all_slips += [Slip(name, shown[where]) for name, where in IN_A_ROW if name in OF_A_COLUMN]
     roles = [role for role in (START, DEPTH, BRAKE, END) if role in plan.columns]
     for name in ("typed", "typed, right digits", "stale", "stale, slightly"):
-        found.append(Slip(name, r.choice(roles), r.randrange(3, n - 1)))
-    found += [
+        all_slips.append(Slip(name, r.choice(roles), r.randrange(3, n - 1)))
+    all_slips += [
         Slip("no half step", DEPTH, 1),
         Slip("explicit Euler", DEPTH),
         Slip("centered", BRAKE),
@@ -92,19 +92,19 @@ def slips(plan: Plan) -> list[Slip]:
     readers = [(given, column) for given in plan.given for column in _readers(plan, given)]
     for row in (r.randrange(3, n - 1), None):
         given, column = r.choice(readers)
-        found.append(Slip("typed constant", column, row, given))
+        all_slips.append(Slip("typed constant", column, row, given))
     given, column = r.choice(readers)
-    found.append(Slip("lost $", column, None, given))
-    found += [Slip(f"mass: {what}", "mass") for what in ("no third", "square", "3.14")]
-    found += [Slip("diameter the radius", "diameter"), Slip("resistance a sum", "resistance")]
-    found += [Slip("label", given=r.choice(plan.given)), Slip("head", column=DEPTH)]
-    found += [Slip("conversion", given=r.choice(plan.given)), Slip("beyond the stop", END)]
-    found += [Slip("result of the row before"), Slip("result over the diameter")]
+    all_slips.append(Slip("lost $", column, None, given))
+    all_slips += [Slip(f"mass: {what}", "mass") for what in ("no third", "square", "3.14")]
+    all_slips += [Slip("diameter the radius", "diameter"), Slip("resistance a sum", "resistance")]
+    all_slips += [Slip("label", given=r.choice(plan.given)), Slip("head", column=DEPTH)]
+    all_slips += [Slip("conversion", given=r.choice(plan.given)), Slip("beyond the stop", END)]
+    all_slips += [Slip("result of the row before"), Slip("result over the diameter")]
     if plan.digits is not None:
-        found = [slip for slip in found if slip.name == "typed"]
+        all_slips = [slip for slip in all_slips if slip.name == "typed"]
     if plan.summed:
-        found = [slip for slip in found if slip.column != DEPTH or slip.name in SUMMED]
-    return [slip for slip in found if _possible(plan, slip)]
+        all_slips = [slip for slip in all_slips if slip.column != DEPTH or slip.name in SUMMED]
+    return [slip for slip in all_slips if _possible(plan, slip)]
 
 
 def _readers(plan: Plan, given: str) -> list[str]:

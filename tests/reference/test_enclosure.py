@@ -141,7 +141,9 @@ def test_inner_parts_are_solutions_and_nothing_outside_the_outer_parts_is(
         assert open_ <= (search[1] - search[0]) / 20, "what is left undecided"
 
 
-def found(*limits: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]) -> bool | None:
+def outcome_of(
+    *limits: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]
+) -> bool | None:
     """The outcome of a search for a point; a point that is found satisfies every constraint."""
     constraints = [(function, Interval(F(low), F(high))) for function, low, high in limits]
     outcome, point = satisfying(constraints, box, budget)
@@ -248,8 +250,8 @@ def test_bounds_that_nothing_narrows_are_those_of_the_box() -> None:
 def test_several_constraints_are_met_at_once_or_proven_to_exclude_each_other() -> None:
     square = {"x": (F(0), F(3)), "y": (F(0), F(3))}
     total, product_ = (lambda ar, x, y: x + y), (lambda ar, x, y: x * y)
-    assert found((total, 4, 5), (product_, 4, 9), **square) is True
-    assert found((total, 0, 1), (FUNCTIONS["saddle"], 3, 9), **square) is False
+    assert outcome_of((total, 4, 5), (product_, 4, 9), **square) is True
+    assert outcome_of((total, 0, 1), (FUNCTIONS["saddle"], 3, 9), **square) is False
     weighted, difference = (lambda ar, x, y: x + 2 * y), (lambda ar, x, y: x - y)
     narrow = (weighted, F(29, 10), F(291, 100)), (difference, F(-3, 2), F(-149, 100))
-    assert found(*narrow, x=(F(-3), F(3)), y=(F(0), F(9)), budget=1) is True
+    assert outcome_of(*narrow, x=(F(-3), F(3)), y=(F(0), F(9)), budget=1) is True

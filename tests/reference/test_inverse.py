@@ -113,9 +113,9 @@ def test_factors_of_the_resistance(
     name: str, factor: dict[str, F], ends: tuple[float, float]
 ) -> None:
     box = {key: (x, x) for key, x in {**BETA_5, **factor}.items()}
-    found = enclosed(name, {**box, "depth": (F("3.25e-6"), F("3.35e-6"))})
-    assert found is not None
-    assert [float(end) for end in found] == pytest.approx(ends, rel=5e-5)
+    enclosure = enclosed(name, {**box, "depth": (F("3.25e-6"), F("3.35e-6"))})
+    assert enclosure is not None
+    assert [float(end) for end in enclosure] == pytest.approx(ends, rel=5e-5)
 
 
 @pytest.mark.parametrize(

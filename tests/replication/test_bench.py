@@ -21,9 +21,20 @@ from running import coldspray
 
 from replication import BETA_5, history
 from replication.bench import measure
-from replication.bench.measure import DIGITS, MEASURES, STEPS, Case, Point, Task, build_case, tasks
-from replication.bench.peers import SOLVERS
+from replication.bench.measure import (
+    BENCH_CASES,
+    CORRECT_DIGITS,
+    MEASURES,
+    STEPS,
+    Case,
+    Point,
+    Task,
+    build_case,
+    tasks,
+)
+from replication.bench.peers import SOLVERS, crosses_radius
 from replication.bench.show import accuracy_figure, texts
+from replication.models.depth import final_depth
 
 
 def point(error: float, seconds: float, method: str = "closed form", **more: Any) -> Point:
@@ -94,7 +105,7 @@ INTERPRETED = (
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
 def test_methods_find_the_exact_depths(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("replication.bench.measure.POINTS", 11)
+    monkeypatch.setattr("replication.bench.measure.HISTORY_POINTS", 11)
     case = build_case(name)
     # The solvers step over the kink of Eq. 13 at x = R, and lose accuracy there.
     kink = 1.0 if name == "beta-5" else 1e4
@@ -106,6 +117,16 @@ def test_methods_find_the_exact_depths(name: str, monkeypatch: pytest.MonkeyPatc
             assert case.error(task.measure, task.run(), task.stop) < bound, task.method
             met.add(task.method)
     assert met == {*EXACT, *FINE}
+
+
+@pytest.mark.parametrize("density", [785.0, 7850.0, 78500.0])
+def test_a_depth_beyond_the_radius_crosses_it(density: float) -> None:
+    """In the bench's terms, y'' = -(b y'^2 + c) (2 y - y^2) with y' = 1 at y = 0."""
+    for velocity in range(100, 2100, 50):
+        impact = replace(BETA_5, velocity=float(velocity), target_density=density)
+        b = 3 * density / (8 * impact.particle_density)
+        c = 3 * impact.target_resistance / (4 * impact.particle_density * velocity**2)
+        assert crosses_radius(b, c) == (final_depth(**impact.motion) > impact.radius), velocity
 
 
 def tried(case: Case, task: Task, repeat: int = 1, limit: float = 1.0) -> Point:
@@ -125,8 +146,7 @@ def test_a_task_that_fails_or_takes_too_long_is_a_gap_with_a_reason(
     assert tried(beta_5, replace(TASK, run=fail))["gap"] == "never at rest"
     assert tried(beta_5, replace(TASK, run=lambda: math.nan))["gap"] == "the answer is not finite"
     slow = tried(beta_5, replace(TASK, run=lambda: time.sleep(0.02) or 0.0), limit=0.01)
-    assert slow["gap"].startswith("takes 0.02")
-    assert slow["gap"].endswith("s, more than 0.01 s")
+    assert re.fullmatch(r"takes \S+ s, more than 0\.01 s", slow["gap"])
     assert (slow["best"], slow["error"], measure.met(slow)) == (None, None, math.inf)
     monkeypatch.setitem(sys.modules, "heyoka", None)
     case = build_case("beta-3")  # for which no integrator is kept
@@ -204,7 +224,10 @@ def test_the_table_of_two_made_up_runs() -> None:
         point(8e-6, 4e-5, "RK4", **history),
     ]
     measure.mark_front(points)
-    rows = [measure.fastest(points, *asked) for asked in product((False, True), MEASURES, DIGITS)]
+    rows = [
+        measure.fastest(points, *asked)
+        for asked in product((False, True), MEASURES, CORRECT_DIGITS)
+    ]
     case = {"name": "beta-5", "depth": 7.67e-6, "points": points, "fastest": rows}
     machine = {"processor": "abacus", "cores": 1}
     settings = [
@@ -232,9 +255,9 @@ def test_the_loosest_setting_gives_the_digits_in_every_case(
     digits: int, expected: tuple[str | None, float | None]
 ) -> None:
     settings = ("1e-4", "1e-6", "1e-8", "1e-12")
-    other = point(1e-15, 1e-6, "other", setting="1e-4")
+    reference = point(1e-15, 1e-6, "other", setting="1e-4")
     first, second = (
-        [other, *(point(error, time, "solver", setting=setting)
+        [reference, *(point(error, time, "solver", setting=setting)
                   for setting, error, time in zip(settings, errors, times, strict=True))]
         for errors, times in (
             ((1e-9, 1e-9, 1e-10, 1e-12), (1e-4, 2e-4, 3e-4, 4e-4)),
@@ -244,6 +267,28 @@ def test_the_loosest_setting_gives_the_digits_in_every_case(
     second[3] |= {"gap": "takes 7 s", "error": None, "best": None}
     answer = measure.loosest([first, second], "solver", "depth", digits)
     assert (answer["setting"], answer["best"]) == expected
+
+
+@pytest.mark.parametrize(
+    ("options", "expected"),
+    [
+        ([], (list(BENCH_CASES), 7, 5.0)),
+        (["--quick"], (["beta-5"], 1, 1.0)),
+        (["--quick", "--limit", "300 ms", "--repeat", "2"], (["beta-5"], 2, 0.3)),
+    ],
+)
+def test_what_is_measured_and_for_how_many_seconds_at_most(
+    options: list[str], expected: tuple[list[str], int, float], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = []
+
+    def bench(names: list[str], repeat: int, limit: float, quiet: bool | None) -> None:
+        asked.append((names, repeat, limit))
+        raise ValueError("enough")
+
+    monkeypatch.setattr(measure, "bench", bench)
+    assert coldspray("bench", *options)[0] == 2
+    assert asked == [expected]
 
 
 def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path) -> None:

@@ -105,10 +105,10 @@ def test_csv_is_the_json_with_all_digits() -> None:
 
 REFUSED_SETTINGS = {
     "NUMBA_DISABLE_JIT=1": (
-        "coldspray sweep: plan: arrays need Numba's compiler: unset NUMBA_DISABLE_JIT\n"
+        "coldspray sweep: arrays need Numba's compiler: unset NUMBA_DISABLE_JIT\n"
     ),
     "NUMBA_NUM_THREADS=abc": (
-        "coldspray sweep: plan: Environment variable 'NUMBA_NUM_THREADS' is defined but its "
+        "coldspray sweep: Environment variable 'NUMBA_NUM_THREADS' is defined but its "
         "associated value 'abc' could not be parsed. Correct or unset it\n"
     ),
     "NUMBA_NUM_THREADS=0": (
@@ -317,8 +317,8 @@ def test_help_lists_only_inputs_that_act(command: str, acts: bool) -> None:
         ),
         (
             ["depth", "--velocty", "450"],
-            "coldspray depth: unrecognized arguments: --velocty 450; did you mean --velocity or "
-            "--stop-velocity? (see coldspray depth --help)",
+            "coldspray depth: unrecognized arguments: --velocty 450; did you mean --velocity? "
+            "(see coldspray depth --help)",
         ),
         (
             ["depth", "--radius", "11 Um"],

@@ -1,6 +1,7 @@
 """`coldspray depth` by the models of the report, the threshold of Eq. 5, and `coldspray crater`."""
 
 import json
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -82,6 +83,36 @@ def test_each_input_of_its_own_acts_and_is_said_to_be_given() -> None:
 )  # fmt: skip
 def test_inputs_that_no_model_takes_are_refused(arguments: str, line: str) -> None:
     assert coldspray("depth", *arguments.split()) == (2, "", f"coldspray depth: {line}\n")
+
+
+@pytest.mark.parametrize("option", ["--step", "--stop-velocity"])
+@pytest.mark.parametrize(
+    "arguments",
+    [
+        ("depth",),
+        ("history", "--points", "2", "--csv"),
+        ("solve", "beta", "--depth", "3um"),
+        ("fit", "docs/fit.csv"),
+    ],
+    ids=lambda arguments: arguments[0],
+)
+def test_what_acts_only_in_time_steps_is_said_to_have_no_say(
+    arguments: tuple[str, ...], option: str
+) -> None:
+    """A case may be overridden in every command; one that overrides in vain is told so."""
+    plain, given = coldspray(*arguments), coldspray(*arguments, option, "1")
+    assert plain == (0, given[1], "")
+    assert given[2] == (
+        f"coldspray {arguments[0]}: warning: {option} has no say here: it acts only where time is "
+        "stepped, as in `sheet`\n"
+    )
+    assert coldspray(*arguments, option, "-1")[0] == 2  # and is still checked
+
+
+def test_a_case_from_a_file_may_have_what_has_no_say(tmp_path: Path) -> None:
+    file = tmp_path / "own.toml"
+    file.write_text("[impact]\nbeta = 4.0\nstep = '1 ns'\n", "utf-8")
+    assert coldspray("depth", "--case-file", file)[2] == ""
 
 
 @pytest.mark.parametrize(

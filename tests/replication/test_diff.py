@@ -15,7 +15,7 @@ from openpyxl import Workbook, load_workbook
 from running import coldspray
 
 from replication.cases import BETA_5
-from replication.check.diff import KINDS, Tolerance, diff
+from replication.check.diff import DIFFERENCE_KINDS, Tolerance, diff
 from replication.check.matching import in_order
 
 CASES = Path(__file__).parents[1] / "foreign" / "cases" / "diff"
@@ -265,7 +265,7 @@ def test_text_page_and_junit_name_the_same_cell(tmp_path: Path) -> None:
     assert "Données!C8, value\n    was 500.0, is 450.0" in out
     assert "c0-C8" in page.read_text("utf-8")
     suite = ET.parse(junit).getroot()
-    assert [case.get("name") for case in suite] == list(KINDS)
+    assert [case.get("name") for case in suite] == list(DIFFERENCE_KINDS)
     assert [case.get("name") for case in suite if len(case)] == ["value"]
     assert coldspray(*arguments)[0] == 1  # both files are its own, and written again
 

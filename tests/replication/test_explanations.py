@@ -379,7 +379,7 @@ CONTROLS = list(controls(LEDGER))
     ],
 )  # fmt: skip
 def test_rewritings_of_a_number(text: str, others: list[str]) -> None:
-    assert [other for other, _ in number_rewritings(text)] == others
+    assert [rewriting for rewriting, _ in number_rewritings(text)] == others
 
 
 def test_rewritings_of_an_equation_have_the_same_value() -> None:

@@ -187,9 +187,29 @@ def test_the_velocity_below_which_the_pair_is_impossible(made: dict[str, Finding
     assert faster < 0.2975 / 0.2775 < slower
 
 
+@pytest.mark.parametrize(
+    ("finding", "name"),
+    [
+        ("frank-zook-pair", "limit"),
+        ("frank-zook-values", "from"),
+        ("frank-zook-values", "below"),
+    ],
+)
+def test_the_bounds_of_a_proof_are_rounded_to_the_safe_side(
+    finding: str, name: str, made: dict[str, Finding]
+) -> None:
+    """What holds below a bound holds below a smaller one; what holds from one, from a greater."""
+    (bound,) = (piece for piece in made[finding].evidence if piece.name == name)
+    stated = float(bound.asserted.lstrip("<>= "))
+    assert stated in (2975, 7764.3, 7849.7)
+    safe = bound.computed <= stated if name == "from" else bound.computed >= stated
+    assert safe
+
+
 def test_multiplied_by_k_t_it_prints_0278_for_all_that_the_printed_mass_admits() -> None:
     header = (2 / 3 * 8900, 0.557 * 1.046)
-    for density, prints_so in ((7825.1, True), (7848.9, True), (7849.72, True), (7849.73, False)):
+    at = ((7764.2, False), (7764.3, True), (7825.1, True), (7848.9, True), (7849.72, True))
+    for density, prints_so in (*at, (7849.73, False)):
         value = (header[0] / density * 1.046 + header[1]) * log(
             1 + 1.046 * density * 500**2 / 9.13e9
         )

@@ -23,11 +23,11 @@ def check(folder: Path, file: str, arguments: list[str], warnings: list[str]) ->
 
 COARSE = "a step at the impact velocity covers 0.182 of the radius: keep it to 0.1 at most"
 SHALLOW = (
-    "the depth falls short of the exact one at the stop velocity, 7.67491e-06 m, by 1.69 %: "
+    "the depth falls short of the exact one at the stop velocity, 7.67491 um, by 1.69 %: "
     "take a shorter step"
 )
 AT_STOP = [
-    "the depth exceeds the exact one at the stop velocity, 0 m: the run begins at the stop "
+    "the depth exceeds the exact one at the stop velocity, 0 um: the run begins at the stop "
     "velocity",
     "the stop velocity 1.0 m/s ends the run before rest: 99.3 % of the exact depth is still to "
     "come",

@@ -11,7 +11,9 @@ from xml.etree import ElementTree as ET
 import matplotlib as mpl
 import numpy as np
 import pytest
+from matplotlib.collections import LineCollection
 from matplotlib.figure import Figure
+from matplotlib.patches import StepPatch
 from running import coldspray, state
 
 from replication import plots
@@ -40,10 +42,11 @@ PLANS = {
     "map": 'velocity = { from = "300 m/s", to = "700 m/s", points = 9 }\n'
     'radius = { from = "1 um", to = "100 um", points = 8, scale = "log" }',
     "still": 'step = { from = "0.1 ns", to = "1 ns", points = 8 }\n'
-    'stop_velocity = { from = "0.1 m/s", to = "1 m/s", points = 8 }',
+    'stop_velocity = { from = "0 m/s", to = "1 m/s", points = 8 }',
     "draws": f"{DRAWN}\nbeta = [3, 5]",
+    "certain": 'stop_velocity = { distribution = "uniform", lower = "0 m/s", upper = "1 m/s" }',
 }
-SETTINGS = {"two": 'outputs = ["sheet_depth"]', "draws": "samples = 200"}
+SETTINGS = {"two": 'outputs = ["sheet_depth"]', "draws": "samples = 200", "certain": "samples = 9"}
 
 
 def plan_file(folder: Path, name: str) -> Path:
@@ -139,12 +142,32 @@ def test_axes_are_labelled_with_units(name: str, figures: dict[str, Figure]) -> 
     )
 
 
+def test_titles_are_typeset(tmp_path: Path) -> None:
+    """In them the symbols of the report have their subscripts, as in the figures of the audit."""
+    file = tmp_path / "x.svg"
+    assert coldspray("history", "--points", "2", "--plot", file)[0] == 0
+    title = "V 500 m/s, R 11 µm, ρₚ 8900, ρₜ 7850 kg/m³, Rₜ 5 × 700 MPa"
+    assert title in shown(file.read_bytes())
+
+
 @pytest.mark.parametrize(("name", "count"), [(name, count) for name, (_, count) in FIGURES.items()])
 def test_every_point_of_ones_own_is_drawn(
     name: str, count: int, drawings: dict[str, bytes]
 ) -> None:
     groups = [g for g in ET.fromstring(drawings[name]).iter(f"{SVG}g") if g.get("id") == "data"]
     assert sum(len(list(group.iter(f"{SVG}use"))) for group in groups) == count
+
+
+def test_an_uncertainty_is_a_visible_bar_of_its_length_on_both_sides(
+    figures: dict[str, Figure],
+) -> None:
+    lines = [line for line in MEASURED.read_text("utf-8").splitlines() if line[0].isdigit()]
+    measured = [tuple(map(float, line.split(","))) for line in lines]
+    ends = [(depth - uncertain, depth + uncertain) for _, depth, uncertain in measured]
+    (bars,) = figures["fit"].axes[0].collections
+    assert isinstance(bars, LineCollection)
+    assert [tuple(bar[:, 1]) for bar in bars.get_segments()] == [pytest.approx(end) for end in ends]
+    assert min(bars.get_linewidth()) > 0.5
 
 
 @pytest.mark.parametrize("name", ["history", "sweep-map", "sweep-draws", "fit"])
@@ -216,6 +239,18 @@ def test_own_depths_become_errors(figures: dict[str, Figure]) -> None:
     assert list(marks.get_xdata()) == pytest.approx([0.4, 0.2])
 
 
+def test_draws_that_give_one_number_are_one_bar_of_area_one_around_it(tmp_path: Path) -> None:
+    """At which velocity a sheet stops does not change the exact depth."""
+    for panel, expected in zip(
+        drawn_sweep("certain")(tmp_path).axes, (7.6749, 0.6977), strict=True
+    ):
+        (bar,) = panel.patches
+        assert isinstance(bar, StepPatch)
+        (height,), (left, right), _ = bar.get_data()
+        assert height * (right - left) == pytest.approx(1, rel=1e-12)
+        assert (left + right) / 2 == pytest.approx(expected, abs=5e-5)
+
+
 def test_quantiles_are_those_of_the_draws() -> None:
     """Of 0, 1, ..., 100 um, the quantiles of 5, 50 and 95 percent are 5, 50 and 95 um."""
     depth = np.arange(101) * 1e-6
@@ -269,6 +304,18 @@ def test_the_depths_of_a_coarse_sheet_are_drawn_where_the_motion_has_them() -> N
 def test_a_map_without_contours_says_so(drawings: dict[str, bytes]) -> None:
     """Neither the step nor the stop velocity acts on the exact depth."""
     assert "about 7.67493 everywhere" in shown(drawings["sweep-still"])
+
+
+def test_the_curve_of_a_fit_goes_a_twentieth_beyond_the_velocities(tmp_path: Path) -> None:
+    """Of their range, or of the velocity where there is only one."""
+    for rows, ends in (("500,7.6\n500,7.7\n", (475, 525)), ("400,6\n500,7.7\n", (395, 505))):
+        file = own(tmp_path, "own.csv", f"v [m/s],depth [um]\n{rows}")
+        measurements = read_measurements(file, BETA_5)
+        curve = (
+            plots.plot_fit(measurements, fit(BETA_5, measurements), "fit").axes[0].get_lines()[0]
+        )
+        drawn = list(curve.get_xdata())
+        assert (drawn[0], drawn[-1]) == pytest.approx(ends)
 
 
 def test_a_fit_names_its_result(drawings: dict[str, bytes]) -> None:

@@ -146,12 +146,21 @@ def test_figures_have_values(name: str) -> None:
          "law for copper", 1 + 0.025 * log(1e7)),
         ("flat-surface", "X/R if the contact is as wide as the sphere from the start, beta = 5",
          4 * 8900 / (3 * 7850) * log(1 + 7850 * 500**2 / 7e9)),
-        ("elastic-rebound", "depth over R by which the model's crater springs back (Hertz, rigid "
-         "particle), beta = 5", 0.75 * pi * 3.5 / 200 * (2 * 0.69772 - 0.69772**2) ** 0.5),
+        ("elastic-rebound", "depth over R by which the model's crater springs back at most (Hertz, "
+         "rigid particle), beta = 5", 0.75 * pi * 3.5 / 200 * (2 * 0.69772 - 0.69772**2) ** 0.5),
         ("clustered-small", "share of the powder's particles of 10 to 30 um that are below 20 um, "
          "their sizes Gaussian as printed", 37.96),
-        ("slower-incipient", "share of the stream of 606 m/s that is slower than 521 m/s, "
-         "deviation as stated", 4.457),  # a normal distribution beyond 1.7 deviations
+        # Normal distributions beyond 85/50 and 183/50 standard, or (2/pi)^(1/2) = 0.7979 as many.
+        ("slower-incipient", "share of the stream of 606 m/s slower than 521 m/s, 50 m/s taken as "
+         "standard deviation", 4.457),
+        ("slower-incipient", "share of the stream of 606 m/s slower than 521 m/s, 50 m/s taken as "
+         "mean deviation", 8.749),
+        ("slower-incipient", "share of the stream of 704 m/s slower than 521 m/s, 50 m/s taken as "
+         "standard deviation", 0.01261),
+        ("slower-incipient", "share of the stream of 704 m/s slower than 521 m/s, 50 m/s taken as "
+         "mean deviation", 0.1750),
+        ("faster-only", "share faster by 50 m/s or more, taken as mean deviation", 21.25),
+        ("faster-only", "share faster by 50 m/s or more, taken as standard deviation", 15.87),
         ("too-few", "share faster than 450 m/s about 400 m/s, 50 m/s taken as standard deviation",
          15.87),
         ("attempts-no-better", "X/R of the rigid model less the observed one, as printed, beta = "

@@ -52,6 +52,8 @@ from replication.report.document import (
 from replication.report.figures import draw_figures
 from replication.report.prose import HTML as PAGE
 from replication.report.prose import TERMINAL, Named, Prose
+from replication.report.tables import main_results
+from replication.report.words import counted_briefly, if_choices_are_rounded
 from replication.text import json_text
 from spreadsheets.styles import CURVES
 
@@ -339,6 +341,21 @@ def test_the_answer_stands_together_and_what_fails_comes_first(
         assert record.claim(name).claim.text in words(first)
 
 
+def test_the_page_leads_with_what_could_have_failed(root: ET.Element, record: Record) -> None:
+    (summary,) = (e for e in root.iter(f"{HTML}section") if e.get("id") == "summary")
+    assert words(summary).startswith(f"Summary {counted_briefly(record.counts)} ")
+
+
+def test_a_ratio_of_the_printed_depth_says_so(record: Record) -> None:
+    """The depth above it is 7.66956 um, of which X/R would be 0.697232 and not 7.67/11."""
+    rows = {head: computed for head, _, computed in main_results(record).rows}
+    assert rows["X/R, beta = 5, from the printed 7.67 µm"] == f"{7.67 / 11:.6f}"
+
+
+def test_a_single_number_that_comes_out_is_one(record: Record) -> None:
+    assert ", this comes out: 0.297 as derived from" in if_choices_are_rounded(record)
+
+
 def test_one_color_and_mark_for_each_case_in_every_figure(files: dict[str, bytes]) -> None:
     for name in ("comparison", "figure-3", "convergence"):
         drawing = files[f"figures/{name}.svg"].decode()
@@ -505,18 +522,52 @@ def test_what_the_figures_say(name: str, words: str, files: dict[str, bytes]) ->
     assert " | ".join(str(text.text) for text in root.iter(f"{SVG}text")) == words
 
 
+def points(element: ET.Element) -> list[tuple[float, float]]:
+    """The ends of what an element of an SVG draws; of a text and a circle its place."""
+    at = element.attrib
+    if element.tag == f"{SVG}polyline":
+        return [(float(x), float(y)) for x, y in (p.split(",") for p in at["points"].split())]
+    x, y = float(at.get("x", at.get("cx", 0))), float(at.get("y", at.get("cy", 0)))
+    return [(x, y), (x + float(at.get("width", 0)), y + float(at.get("height", 0)))]
+
+
+@pytest.mark.parametrize(
+    ("name", "axis", "legend"),
+    [
+        ("comparison", "Normalized depth X/R", "computed, β = 3"),
+        ("sensitivity", "Depth X [µm]", "input at its low end"),
+        ("figure-3", "", ""),
+        ("figure-5", "", ""),
+        ("convergence", "Time step [ns]", "drag at the initial velocity, β = 3"),
+    ],
+)
+def test_all_is_drawn_within_the_figure_and_a_legend_not_over_the_bars(
+    name: str, axis: str, legend: str, files: dict[str, bytes]
+) -> None:
+    root = ET.fromstring(files[f"figures/{name}.svg"])
+    width, height = float(root.attrib["width"]), float(root.attrib["height"])
+    for element in root:
+        for x, y in points(element):
+            assert (0 <= x <= width, 0 <= y <= height) == (True, True), element.attrib
+    down = {str(text.text): float(text.attrib["y"]) for text in root.iter(f"{SVG}text")}
+    if legend:
+        assert down[legend] > down[axis]
+
+
 def test_the_middle_velocity_has_dashed_lines_and_hollow_marks(files: dict[str, bytes]) -> None:
     """So that the two schemes differ in gray; the marks of the report's own are filled."""
     root = ET.fromstring(files["figures/convergence.svg"])
     shapes = [*root.iter(f"{SVG}circle"), *root.iter(f"{SVG}rect")]
     hollow = {center(shape) for shape in shapes if shape.get("fill") == "none"}
+    legend = [text for text in root.iter(f"{SVG}text") if str(text.text).startswith("drag")]
+    assert len(legend) == 4
+    for text in legend:
+        ((x, y), _) = points(text)
+        assert ((x - 15, y - 4) in hollow) == ("middle" in str(text.text))
     for line in root.iter(f"{SVG}polyline"):
-        if points := [
-            tuple(map(float, point.split(","))) for point in line.get("points", "").split()
-        ]:
-            assert {point in hollow for point in points} == {
-                line.get("stroke-dasharray") is not None
-            }
+        assert {point in hollow for point in points(line)} == {
+            line.get("stroke-dasharray") is not None
+        }
 
 
 def center(shape: ET.Element) -> tuple[float, float]:
@@ -573,7 +624,7 @@ def test_the_summary_fits_the_terminal_and_cuts_nothing(record: Record, width: i
     assert max(map(len, text.splitlines())) <= width
     flat = " ".join(text.split())
     prose = Prose(TERMINAL, record.symbols, {})
-    assert all(prose(f.title) in flat for f in record.findings[: report.FINDINGS])
+    assert all(prose(f.title) in flat for f in record.findings[: report.FINDINGS_ON_SCREEN])
     if width >= 80:
         assert re.search(r"armor +0\.278 +0\.127 +0\.255$", text, re.MULTILINE)
         assert re.search(r"stainless steel +0\.297 +0\.150 +0\.300", text)

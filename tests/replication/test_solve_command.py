@@ -11,7 +11,7 @@ import pytest
 from running import coldspray
 
 from replication import BETA_5, final_depth
-from replication.cli.solve import NAMES
+from replication.cli.solve import SOUGHT_NAMES
 from replication.solve import solve, solve_printed
 
 
@@ -22,16 +22,19 @@ def answer(*arguments: str, status: int = 0) -> dict[str, Any]:
     return dict(json.loads(out))
 
 
-@pytest.mark.parametrize("typed", NAMES)
+@pytest.mark.parametrize("typed", SOUGHT_NAMES)
 def test_json_has_the_promised_keys_and_the_value_of_python(typed: str) -> None:
-    record, expected = answer(typed, "--depth", "3.3 um"), solve(BETA_5, NAMES[typed], 3.3e-6)
+    record, expected = (
+        answer(typed, "--depth", "3.3 um"),
+        solve(BETA_5, SOUGHT_NAMES[typed], 3.3e-6),
+    )
     assert {"inputs", "quantity", "value", "interval", "depth", "normalized_depth"} <= set(record)
-    assert record["quantity"] == NAMES[typed]
+    assert record["quantity"] == SOUGHT_NAMES[typed]
     assert record["value"] == expected.value
     assert record["condition"] == expected.condition
     assert record["depth"] == 3.3e-6
     assert record["interval"] is None
-    assert NAMES[typed] not in record["inputs"]
+    assert SOUGHT_NAMES[typed] not in record["inputs"]
 
 
 def test_a_normalized_depth_is_that_times_the_radius() -> None:
@@ -111,10 +114,8 @@ def test_an_interval_without_a_value_in_its_middle_is_an_answer() -> None:
          "--resistance has no say where the flow stress is solved for: leave it out"),
         ("velocity --depth 3um --rounded --radius 0.0um",
          "--radius is 0.0: it must be a finite number greater than zero"),
-        ("velocity --depth 3", '--depth: did you mean "3 um"? (the depth is 2.73e+05 times the '
-         "radius: velocity is inf for this depth: doubles carry 1e-250 to 1e250 safely (with depth "
-         "3.0, radius 1.1e-05, particle_density 8900.0, target_density 7850.0, resistance "
-         "3500000000.0))"),
+        ("velocity --depth 3", '--depth: the depth is 2.73e+05 times the radius: did you mean "3 '
+         'um"?'),
         ("depth --velocity 400 --depth 3um", "argument QUANTITY: it is solved for what gives a "
          "depth; the depth of a case is printed by `coldspray depth` (see coldspray solve --help)"),
         ("step --depth 3um", "argument QUANTITY: there is no quantity 'step': choose one of "

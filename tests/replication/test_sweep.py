@@ -218,7 +218,7 @@ def test_results_are_those_of_single_cases(tmp_path: Path) -> None:
             sheet, others = run(impact), {n: x for n, x in impact.motion.items() if n != "radius"}
             ratio = normalized_depth(**others)
             assert {
-                name: cases[name][k] for name in (*sweep.RESULTS, *sweep.EXTRAS, "resistance")
+                name: cases[name][k] for name in (*sweep.CASE_RESULTS, *sweep.EXTRAS, "resistance")
             } == {
                 "depth": final_depth(**impact.motion),
                 "normalized_depth": ratio,

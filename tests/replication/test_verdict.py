@@ -1,11 +1,11 @@
 """Witnesses of verdicts, what the evidence says of the target density, and misprints judged."""
 
+import math
 import re
 from collections.abc import Iterator
 from fractions import Fraction as F
 from functools import cache
 from itertools import pairwise
-from math import prod
 
 import pytest
 
@@ -43,7 +43,7 @@ def test_a_witness_prints_like_the_report_and_gives_the_number(audit: Audit) -> 
             assert LEDGER.claims[entry].as_input(convention).contains(witness[entry]), (name, entry)
         computation = claim.computations[reading]
         inputs = {
-            key: prod(float(witness[entry]) for entry in entries)
+            key: math.prod(float(witness[entry]) for entry in entries)
             for key, entries in claim.inputs.items()
         }
         settings: dict[str, object] = {"row": claim.row} if computation.by_row else {}
@@ -59,6 +59,34 @@ def test_a_witness_prints_like_the_report_and_gives_the_number(audit: Audit) -> 
             at_witness = {name: (witness.get(name, low), witness.get(name, high))
                           for name, (low, high) in box.items()}  # fmt: skip
             assert satisfying(constraints, at_witness)[0] is True, name
+
+
+def test_a_witness_has_the_mass_where_the_radius_is_computed_from_it() -> None:
+    """7.66 follows if the header of Table A-1 is rounded: then mass and density give the radius."""
+    ledger = LEDGER.misprint("depth-beta-5", "7.66")
+    claim = ledger.claims["depth-beta-5"]
+    (reading,) = Judge(ledger, every_convention=False).assess(claim).readings
+    (judgement,) = reading.judgements
+    witness = judgement.witness
+    assert witness is not None
+    assert ledger.claims["a1-mass"].as_input(judgement.convention).contains(witness["a1-mass"])
+    volume = float(witness["a1-mass"] / witness["a1-density"])
+    point = {**witness, "a1-radius": F(math.cbrt(3 * volume / (4 * math.pi)))}
+    inputs = {
+        key: math.prod(float(point[entry]) for entry in entries)
+        for key, entries in claim.inputs.items()
+    }
+    depth = F(replica("final_sheet_depth", inputs, scheme=Scheme.PUBLISHED))
+    margin = depth * F(1, 10**12)  # rounding may place a double just outside an end
+    assert not claim.target().excludes(depth - margin, depth + margin)
+
+
+def test_models_and_reference_take_another_power_of_goodiers_force_alike() -> None:
+    """With n = 3 Eqs. 8 and 9 give q (2a)^3 = pi a^2 R_t: at a = 1 twice what n = 2 gives."""
+    judge = Judge(LEDGER.misprint("goodier-power", "3"), every_convention=False)
+    claim, expected = judge.ledger.claims["goodier-beta"], pytest.approx(8 * 2.77 / math.pi)
+    (reading,) = judge.assess(claim).readings
+    assert (judge.modelled(claim), float(reading.reference)) == (expected, expected)
 
 
 def test_a_number_of_unclear_digits_says_which_were_taken(record: Record) -> None:
@@ -356,6 +384,9 @@ def test_what_a_reproduced_number_tells(record: Record) -> None:
     assert {name for name, s in told.items() if s is Standing.EVIDENCE} == set(CELLS)
     independent = {name for name, s in told.items() if s is Standing.INDEPENDENT}
     assert len(independent) == record.counts.independent == 19
+    one_sided = {"contact-diameter-bound", "strength-multiple", "strain-rate", "excess"}
+    assert {n for n in independent if "inf" in str(record.claim(n).claim.interval())} == one_sided
+    assert record.counts.bounds == len(one_sided)
     assert independent >= {"depth-beta-3", "depth-beta-5", "a1-mass", "observed-depth-ratio"}
     assert len(told) == record.counts.computed
 

@@ -15,8 +15,8 @@ from replication.audit.record import Record
 from replication.cases import BETA_5
 from replication.workbook import Workbook
 from spreadsheets import engines
-from spreadsheets.engines import Engine, Values
-from spreadsheets.plan import Value
+from spreadsheets.engines import Engine, SheetValues
+from spreadsheets.plan import ShownValue
 
 Typed = float | str | None
 """What is typed into a cell: a number, a text, an error such as "#DIV/0!", or nothing (None)."""
@@ -64,14 +64,14 @@ class Page:
     """A recalculated workbook, read by key."""
 
     book: Workbook
-    result: Values
+    result: SheetValues
 
-    def __getitem__(self, key: str) -> Value:
+    def __getitem__(self, key: str) -> ShownValue:
         sheet, address = self.book.plan.where[key]
         return self.result[sheet].get(address, "")
 
     @property
-    def errors(self) -> dict[tuple[str, str], Value]:
+    def errors(self) -> dict[tuple[str, str], ShownValue]:
         """The errors that are not #N/A, by place."""
         return {
             (sheet, address): value

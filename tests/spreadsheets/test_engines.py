@@ -15,7 +15,7 @@ import xlsxwriter
 from workbooks import BY_NAME, Fake, usable
 
 from spreadsheets import emit, engines
-from spreadsheets.engines import Engine, EngineError, Values
+from spreadsheets.engines import Engine, EngineError, SheetValues
 from spreadsheets.plan import Cell, SheetPlan, WorkbookPlan
 from spreadsheets.verify import CellDifference, EngineCheck, compare, verify
 
@@ -96,7 +96,7 @@ def workbook(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 @pytest.fixture(scope="module")
-def recalculated(engine: Engine, workbook: Path) -> Values:
+def recalculated(engine: Engine, workbook: Path) -> SheetValues:
     """Recalculate that workbook, once for each engine; the file and its folder do not change."""
     before = workbook.read_bytes()
     result = engine.recalculate(workbook)
@@ -105,7 +105,9 @@ def recalculated(engine: Engine, workbook: Path) -> Values:
     return result
 
 
-def test_an_engine_gives_each_value_as_documented(engine: Engine, recalculated: Values) -> None:
+def test_an_engine_gives_each_value_as_documented(
+    engine: Engine, recalculated: SheetValues
+) -> None:
     """Numbers are exact, and a chart sheet has no values."""
     major, minor, *_ = engine.version().split(".")
     assert (major + minor).isdigit()

@@ -1,6 +1,6 @@
 """Evaluating formulas: what spreadsheets mean, what is left alone, and agreement with an engine."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import pytest
@@ -12,6 +12,7 @@ from spreadsheets import evaluate, scalars
 from spreadsheets.engines import Formualizer, address
 from spreadsheets.evaluate import Evaluator, parse_formula, shape_key
 from spreadsheets.foreign import Book, Position, StoredCell, read
+from spreadsheets.functions import NUMERIC
 from spreadsheets.scalars import Area, Error, Scalar
 
 D9 = (9, 4)
@@ -185,6 +186,20 @@ def test_formulas_mean_what_spreadsheets_mean(formula: str, value: Scalar) -> No
     actual = evaluator.values["S", *D9]
     assert evaluator.reasons == {}
     assert (type(actual), actual) == (type(value), value)
+
+
+def takes(function: Callable[..., float], count: int) -> bool:
+    try:
+        function(*[0.5] * count)
+    except TypeError:
+        return False
+    return True
+
+
+def test_functions_of_numbers_take_as_few_and_as_many_as_their_entries_say() -> None:
+    for name, (function, least, most) in NUMERIC.items():
+        if name != "LOG10":  # its function is that of LOG, which takes a base
+            assert [n for n in range(5) if takes(function, n)] == [*range(least, most + 1)], name
 
 
 @pytest.mark.parametrize(("formula", "reason"), [

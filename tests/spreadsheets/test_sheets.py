@@ -20,7 +20,7 @@ from spreadsheets.plan import ROW_HEIGHT, Cell, SheetPlan
 from spreadsheets.sheets import cells_of_claims
 from spreadsheets.sheets.audit import AS_PRINTED, OTHERWISE
 from spreadsheets.sheets.case import prepared_rows
-from spreadsheets.styles import CURVES
+from spreadsheets.styles import CURVES, STYLES
 from spreadsheets.verify import inexact
 
 LEDGER = load()
@@ -45,8 +45,8 @@ def formulas(book: Workbook) -> dict[tuple[str, str], str]:
 
 def sheet(book: Workbook, name: str) -> SheetPlan:
     """Return a sheet of a workbook."""
-    (found,) = (page for page in book.plan.sheets if page.name == name)
-    return found
+    (wanted,) = (page for page in book.plan.sheets if page.name == name)
+    return wanted
 
 
 # Formulas
@@ -494,6 +494,28 @@ def test_printed_type_is_at_least_7_points(book: Workbook) -> None:
         if page.one_page:
             height = 18 + (max(rows) - 1) * ROW_HEIGHT
             assert 10 * (down - above) * 72 / height >= 7, page.name
+
+
+def test_heads_stand_over_what_they_name_on_the_side_of_its_text(book: Workbook) -> None:
+    """Those of numbers on the right, those of texts on the left; in column A all on the left."""
+    for page in book.plan.sheets:
+        for address, head in page.cells.items():
+            if head.text and head.style in ("head right", "head unit"):
+                below = page.cells.get(f"{address[0]}{int(address[1:]) + 1}")
+                if below and below.style != "block":
+                    aligned = STYLES[below.style].get("align") == "right"
+                    assert (head.style == "head right") == aligned, (page.name, address)
+
+
+def test_what_follows_a_blank_row_has_a_head(book: Workbook) -> None:
+    for page in book.plan.sheets:
+        first = {int(re.sub(r"\D", "", at)): cell for at, cell in reversed(page.cells.items())}
+        for row, cell in first.items():
+            if row - 1 not in first and row > 1:
+                assert cell.style in ("head", "head unit", "block", "note", "link"), (
+                    page.name,
+                    row,
+                )
 
 
 @pytest.mark.parametrize(

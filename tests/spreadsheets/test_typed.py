@@ -10,10 +10,9 @@ import pytest
 from workbooks import usable
 
 from spreadsheets.engines import Engine
-from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, Value
+from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, ShownValue
 from spreadsheets.sheets.messages import (
     CHANGED,
-    COARSE,
     COMPLETE,
     CURRENT,
     DOUBTFUL,
@@ -34,6 +33,7 @@ from spreadsheets.sheets.messages import (
     REVERSED,
     RUN_SAYS,
     STALE,
+    STEP_TOO_LONG,
     UNCHANGED,
     UNUSABLE,
 )
@@ -55,7 +55,7 @@ class Said:
     stale: bool = True
     labels: Mapping[str, str] = field(default_factory=dict)
     notes: Mapping[str, str] = field(default_factory=dict)
-    also: Mapping[str, Value] = field(default_factory=dict)
+    also: Mapping[str, ShownValue] = field(default_factory=dict)
 
     @property
     def cells(self) -> dict[str, float | str | None]:
@@ -76,7 +76,7 @@ SCENARIOS = {
         {"dt_s": 40.0}, (ONE_STEP, ONE_STEP, COMPLETE, COMPLETE), 1, notes=BOTH_COARSE
     ),
     "a step too long": Said(
-        {"dt_s": 12.0}, (COARSE, COARSE, COMPLETE, COMPLETE), 1, notes=BOTH_COARSE,
+        {"dt_s": 12.0}, (STEP_TOO_LONG, STEP_TOO_LONG, COMPLETE, COMPLETE), 1, notes=BOTH_COARSE,
         also={"steps_low": 3.0, "steps_high": 3.0},
     ),
     "another stop": Said({"v_stop": 2.0}, [COMPLETE] * 4, 1, also={"steps_high": 130.0}),
@@ -107,7 +107,7 @@ SCENARIOS = {
         {"dt_coarse": 0.1}, USUAL, 1, stale=False, notes=BOTH_COARSE
     ),
     "a coarse step too long": Said(
-        {"dt_coarse": 20.0}, (COMPLETE, REVERSED, COARSE, COARSE), 1, stale=False
+        {"dt_coarse": 20.0}, (COMPLETE, REVERSED, STEP_TOO_LONG, STEP_TOO_LONG), 1, stale=False
     ),
     "another mean particle": Said({"D_mean": 30.0}, USUAL, 1, stale=False),
     "a radius that is almost the report's": Said(
@@ -207,7 +207,7 @@ def check_unusable(page: Any, usual: Any, bad: Mapping[str, str]) -> None:
     assert page.errors.keys() <= typed
 
 
-def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[Value]:
+def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[ShownValue]:
     """Return what a cell may show that depends on an unusable input."""
     name, _, ending = key.rpartition(".")
     if name in bad:
@@ -246,7 +246,7 @@ def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[Value]:
     return {NOT_AVAILABLE, ""}
 
 
-def allowed_beside(ending: str, typed: float | str | None, fault: str) -> set[Value]:
+def allowed_beside(ending: str, typed: float | str | None, fault: str) -> set[ShownValue]:
     """Return what a cell may show in the row of an input that cannot be used, by its key's end."""
     if ending in ("number", "taken") and isinstance(typed, float):
         return {typed}

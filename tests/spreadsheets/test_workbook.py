@@ -26,7 +26,7 @@ from replication.workbook import Workbook, live_verdicts, result_of
 from spreadsheets import emit
 from spreadsheets.conversion import converted
 from spreadsheets.engines import Engine, office
-from spreadsheets.plan import Value
+from spreadsheets.plan import ShownValue
 from spreadsheets.sheets import report_cases
 from spreadsheets.sheets.inputs import input_lines
 from spreadsheets.verify import compare, tolerances
@@ -122,7 +122,7 @@ def random_cases(seed: int) -> tuple[Impact, Impact]:
 
 def typed_inputs(
     build: Callable[..., Workbook], seed: int, monkeypatch: pytest.MonkeyPatch
-) -> tuple[dict[str, Value], float]:
+) -> tuple[dict[str, ShownValue], float]:
     """Return the values of the report's workbook after random numbers are typed, and its bound.
 
     They are the values of a workbook written for a report with these cases and numbers, except for

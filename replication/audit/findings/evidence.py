@@ -36,11 +36,11 @@ def concerning(*names: str) -> Callable[[Callable[[Results], Finding]], FindingF
     return lambda function: FindingFunction(function, names)
 
 
-Value = Fraction | float
+Computed = Fraction | float
 """A computed number in SI units; a Fraction is exact."""
 
 
-def prints(name: str, text: str, value: Value, unit: str, means: str) -> Evidence:
+def prints(name: str, text: str, value: Computed, unit: str, means: str) -> Evidence:
     """Return a number that rounds to `text`. The computed `value` is in SI, the text in `unit`.
 
     >>> shock = prints("shock", "9.7", 9.68e9, "GPa", "pressure of a plane impact")
@@ -52,28 +52,28 @@ def prints(name: str, text: str, value: Value, unit: str, means: str) -> Evidenc
     return Evidence(name, means, unit, text, float(computed), holds)
 
 
-def equals(name: str, text: str, value: Value, unit: str, means: str) -> Evidence:
+def equals(name: str, text: str, value: Computed, unit: str, means: str) -> Evidence:
     """Return a number that is exactly the `text`, such as a count."""
     computed = Fraction(value) / to_si(unit)
     holds = computed == parse(text).value
     return Evidence(name, means, unit, f"= {text}", float(computed), holds)
 
 
-def at_least(name: str, text: str, value: Value, unit: str, means: str) -> Evidence:
+def at_least(name: str, text: str, value: Computed, unit: str, means: str) -> Evidence:
     """Return a number, such as a proven lower bound, that is not below the `text`."""
     computed = Fraction(value) / to_si(unit)
     holds = computed >= parse(text).value
     return Evidence(name, means, unit, f">= {text}", float(computed), holds)
 
 
-def at_most(name: str, text: str, value: Value, unit: str, means: str) -> Evidence:
+def at_most(name: str, text: str, value: Computed, unit: str, means: str) -> Evidence:
     """Return a number, such as a proven upper bound, that is not above the `text`."""
     computed = Fraction(value) / to_si(unit)
     holds = computed <= parse(text).value
     return Evidence(name, means, unit, f"<= {text}", float(computed), holds)
 
 
-def above(name: str, text: str, value: Value, unit: str, means: str) -> Evidence:
+def above(name: str, text: str, value: Computed, unit: str, means: str) -> Evidence:
     """Return a number that is greater than the `text`."""
     computed = Fraction(value) / to_si(unit)
     holds = computed > parse(text).value
@@ -90,7 +90,7 @@ def refutes(name: str, outcome: bool, means: str) -> Evidence:
     return Evidence(name, means, "1", "no", outcome, not outcome)
 
 
-def calculated(text: str, value: Value) -> Evidence:
+def calculated(text: str, value: Computed) -> Evidence:
     """Return the result of a line of arithmetic in a text, calculated again from its numbers.
 
     >>> f"4/6 = {calculated('0.667', Fraction(4, 6))}"

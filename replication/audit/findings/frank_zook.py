@@ -139,9 +139,9 @@ def headline(audit: Results) -> Finding:
         "headline",
         title="What the audit found",
         statement="With a target density inferred from eight cells of Table A-1, and the sphere's "
-        "mass for the printed one, the model's own numbers reproduce to the last printed digit; "
-        "the two Frank-Zook values do not and, if computed at one velocity and with one pair of "
-        "densities, cannot both be right; "
+        "mass in place of the printed one, the model's own numbers reproduce to the last printed "
+        "digit; the two Frank-Zook values do not and, if computed at one velocity and with one "
+        "pair of densities, cannot both be right; "
         f"Eq. 16 as printed is too small by a factor of {factor}.",
         status="explained",
         evidence=evidence,
@@ -186,8 +186,8 @@ def frank_zook_pair(audit: Results) -> Finding:
     z = prints(
         "z", "2.053", drag(audit), "GPa", "k_t rho_t V^2 at the inputs as printed and 7850 kg/m^3"
     )
-    limit = prints(
-        "limit", "2976", common_velocity(audit), "m/s",
+    limit = at_least(
+        "limit", "2975", common_velocity(audit), "m/s",
         "velocity below which this holds, both R_t and k_t rounded, 7850 kg/m^3",
     )  # fmt: skip
     density = equals("density", "7850", exact(DENSITY), "kg/m^3", "target density taken there")
@@ -346,17 +346,19 @@ def density_on_k_1(audit: Results, R_t: Fraction) -> float:
     return float(bracket / k_t) * log1p(drag(audit) / R_t)
 
 
-def density_that_gives(audit: Results, claim: str) -> float:
-    """Return the target density [kg/m^3] at which `typed_without_brackets` leaves the claim.
+def densities_that_give(audit: Results, claim: str) -> tuple[float, float]:
+    """Return the densities [kg/m^3] between which `typed_without_brackets` prints as the claim."""
+    least, greatest = audit.ledger.claims[claim].target().ends
+    return _density_that_gives(audit, float(least)), _density_that_gives(audit, float(greatest))
 
-    Its value grows with the density: the greatest that prints as the claim is the upper end.
-    """
-    top = float(audit.ledger.claims[claim].target().ends[1])
+
+def _density_that_gives(audit: Results, ratio: float) -> float:
+    """Return the target density [kg/m^3] at which `typed_without_brackets`, which grows, is so."""
     R_t = audit.exact("fz-resistance-rha")
     low, high = Fraction(7000), Fraction(9000)
     for _ in range(40):  # to 2e-9 kg/m^3
         middle = (low + high) / 2
-        if typed_without_brackets(audit, middle, R_t) < top:
+        if typed_without_brackets(audit, middle, R_t) < ratio:
             low = middle
         else:
             high = middle
@@ -512,14 +514,19 @@ def frank_zook_values(audit: Results) -> Finding:
     multiplied_other = prints(
         "multiplied_other", "0.328", multiplied_stainless, "1", "the same, stainless steel"
     )
-    below = prints(
-        "below", "7849.7", density_that_gives(audit, "frank-zook-rha"), "kg/m^3",
+    from_density, to_density = densities_that_give(audit, "frank-zook-rha")
+    from_ = at_most(
+        "from", "7764.3", from_density, "kg/m^3",
+        "target density from which that prints as the armor value",
+    )  # fmt: skip
+    below = at_least(
+        "below", "7849.7", to_density, "kg/m^3",
         "target density below which that prints as the armor value",
     )  # fmt: skip
     with_mass = judge.inference(DENSITY).with_mass.ends
     always = proves(
         "always",
-        with_mass[1] < density_that_gives(audit, "frank-zook-rha"),
+        from_density < with_mass[0] and with_mass[1] < to_density,
         "it does for every density that the header of Table A-1 admits with its printed mass",
     )
     on_k_1 = prints(
@@ -569,9 +576,9 @@ def frank_zook_values(audit: Results) -> Finding:
         'the only one that is a single slip in the derived form: "/2kt" typed into a cell as '
         f"/2*k_t multiplies by k_t. With X/R twice X/D that gives {multiplied} for {assumed} "
         f"kg/m^3, and prints {text('frank-zook-rha')} "
-        f"for every density below {below}, so for all that the header with its printed mass "
-        f"admits; for stainless steel it gives {multiplied_other}. With the density ratio on k_1 "
-        f"in place of L/D, X/R twice X/D, stainless steel gives {on_k_1}, which prints "
+        f"for every density from {from_} to {below}, so for all that the header with its printed "
+        f"mass admits; for stainless steel it gives {multiplied_other}. With the density ratio on "
+        f"k_1 in place of L/D, X/R twice X/D, stainless steel gives {on_k_1}, which prints "
         f"{text('frank-zook-stainless')}, and armor {on_k_1_other}. Two other ways to "
         f"{text('frank-zook-stainless')}: on a grid of {grid} GPa the resistance that comes "
         f"nearest to the observed {text('observed-depth-ratio')} is {nearest} GPa, and it gives "
@@ -587,7 +594,7 @@ def frank_zook_values(audit: Results) -> Finding:
             derived, off, least_exact, least_admitted, grid, corner, needed, nearest, after, back,
             rha_resistance, rha_velocity, rha_derived, never, inertia_, z_, forms, members, fit_rha,
             fit_stainless, chance_rha, chance_stainless, fit_both, multiplied, multiplied_other,
-            below, always, on_k_1, on_k_1_other, assumed, taken_rha, taken_stainless,
+            from_, below, always, on_k_1, on_k_1_other, assumed, taken_rha, taken_stainless,
             both_copper,
         ),
         steps=steps,

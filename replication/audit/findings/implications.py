@@ -64,10 +64,10 @@ def no_penetration(audit: Results) -> Finding:
         "rho_p v^2/2 + Y_p, exceeds the target's resistance R_t. With the yield strength that the "
         f"report quotes for copper, {text('copper-yield')} MPa, that stress is {stress} GPa at "
         f"{velocity} m/s; R_t is {low} GPa for beta = 3 and {high} GPa for beta = 5. So by Eq. 5 "
-        f"the particle penetrates above {threshold_3} or {threshold_5} m/s only, and not at all "
-        f"below. With the {fast} MPa that Johnson and Cook's law gives at strain one and 10^7 per "
-        f"second, far beyond its fit, the threshold is {fast_3} or {fast_5} m/s. The report itself "
-        "takes a particle stronger than R_t, as its rigid model needs. The rigid particle gives "
+        f"the particle penetrates only above {threshold_3} or {threshold_5} m/s. With the "
+        f"{fast} MPa that Johnson and Cook's law gives at strain one and 10^7 per second, far "
+        f"beyond its fit, the threshold is {fast_3} or {fast_5} m/s. The report itself takes "
+        "a particle stronger than R_t, as its rigid model needs. The rigid particle gives "
         f"X/R = {text('ratio-beta-3')} and {text('ratio-beta-5')}, the deforming one of Eq. 5 none "
         f"at all, and {text('observed-ratio')} is observed. This puts figures to the report's "
         '"most likely attributable to the rigid body assumption".',
@@ -167,7 +167,7 @@ def hardness_again(audit: Results) -> Finding:
         "hardness-again",
         "method",
         title=f"Beta = 3 gives about the hardness back, {least} to {greatest} GPa if it was "
-        f"converted by three; beta = 5 exceeds it {above_it} times",
+        f"converted by three; beta = 5 is {above_it} times as much",
         statement="The strengths of the grains were converted from Knoop hardness, which for "
         f"steels is some {text('brinell-ratio')} times the tensile strength. To multiply them by "
         f"beta = {text('brinell-beta')} undoes the conversion: {text('strength-clear')} and "
