@@ -9,7 +9,8 @@ How a workbook becomes six numbers:
    a constant, and the velocity falls by the deceleration times the same constant.
 3. `fit` probes one row that has the usual formulas: it gives the row depths and velocities that are
    independent of each other, and sees to what each column responds, and how. `rows` fits a table
-   without formulas to its numbers; what their digits admit are the errors of the six (`six`):
+   without formulas to its numbers; what their digits admit are the errors of the six (`six`).
+   If most rows do not follow, it is another method or model (`model`):
 
        x += c w    a = (G u^2 + H) (D x - x^2), constant beyond D/2    v -= e a    from V on
 
@@ -30,6 +31,7 @@ How six numbers become a verdict:
    cascade. `ends` judges the first row, and the last by running the scheme with the inputs that
    were meant (`taken`); `excerpt` a few rows typed off the report; `results` what is shown beside
    the table; `stale` stored values.
+   `solved` says which inputs that only rows show are not the report's.
 8. `show` says it: the verdict, the first fault in order of calculation, what was taken for what.
 
 `diff`, with `matching`, `layout`, `references`, `following` and `diff_show`, compares two workbooks
