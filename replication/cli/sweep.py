@@ -37,10 +37,10 @@ def run(options: argparse.Namespace) -> int:
     from replication.models.arrays import import_numba
     from replication.sweep import check_output, read_plan, sweep_provenance, write_sweep
 
-    import_numba()  # what is wrong with its settings is no fault of the plan
     plan = read_plan(options.plan)
     output = options.output or Path(f"{options.plan.stem}.csv")
     check_output(output)
+    import_numba()  # what is wrong with its settings is no fault of the plan
     if output.resolve() == options.plan.resolve():
         raise ValueError(f"{output} is the plan itself: give another -o")
     points = _checked(options, plan, output)
