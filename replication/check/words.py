@@ -143,15 +143,30 @@ def input_roles(label: str, unit: str | None) -> frozenset[str]:
     roles = _symbols("input_symbols", label)
     if not roles:
         groups = set(_entries_in("groups", _plain_text(label)))
-        needs = {role: said.partition(" not ") for role, said in _WORDS["input_words"].items()}
         roles = [
             role
-            for role, (wanted, _, unwanted) in needs.items()
-            if groups.issuperset(wanted.split()) and unwanted not in groups
+            for role, (wanted, unwanted) in _INPUT_WORDS.items()
+            if groups >= wanted and not groups & unwanted
         ]
         # Only a density is ambiguous: without particle or target in its label it may be either.
         roles = [role for role in roles if role.endswith("density")] or roles[:1]
     return frozenset(r for r in roles if unit is None or same_dimension(unit, INPUT_UNITS[r]))
+
+
+_INPUT_WORDS: dict[str, tuple[set[str], set[str]]] = {
+    "particle_density": ({"density"}, {"target"}),
+    "target_density": ({"density"}, {"particle"}),
+    "stop_velocity": ({"stop", "slow"}, set()),
+    "velocity": ({"speed"}, {"stop"}),
+    "step": ({"step"}, {"number"}),
+    "resistance": ({"resistance"}, set()),
+    "beta": ({"beta"}, {"choice"}),
+    "flow_stress": ({"stress"}, {"copper"}),
+    "radius": ({"radius"}, {"apart"}),
+    "diameter": ({"diameter"}, {"apart"}),
+    "mass": ({"mass"}, {"volumic"}),
+}
+"""The groups of words that a label of each input has, all of them, and those that it has not."""
 
 
 @cache
