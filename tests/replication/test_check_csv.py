@@ -225,7 +225,7 @@ INPUTS = pytest.mark.parametrize(
 
 
 @INPUTS
-@pytest.mark.parametrize("form", [".12g", ".6g"])
+@pytest.mark.parametrize("form", [".12g", pytest.param(".6g", marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("names", "above"), [
     (TEXTBOOK, ""), (TEXTBOOK[:3], ""), (TEXTBOOK[:3], "radius [um],{}\n"),
 ], ids=["braked", "bare", "the radius above"])  # fmt: skip
@@ -250,7 +250,7 @@ def test_explicit_euler_is_named_once_and_no_number_is_accused(
 
 
 @INPUTS
-@pytest.mark.parametrize("form", ["", ".6g"])
+@pytest.mark.parametrize("form", [".6g", pytest.param("", marks=pytest.mark.slow)])
 @pytest.mark.parametrize("within", [1, 8], ids=["Runge-Kutta", "as good as exact"])
 def test_rows_of_a_better_method_are_found_and_not_judged(
     impact: Impact, form: str, within: int, tmp_path: Path
