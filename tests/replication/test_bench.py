@@ -291,6 +291,7 @@ def test_what_is_measured_and_for_how_many_seconds_at_most(
     assert asked == [expected]
 
 
+@pytest.mark.slow
 def test_a_quick_run_prints_json_and_writes_every_file(tmp_path: Path) -> None:
     status, out, err = coldspray(
         *("bench", "--quick", "--limit", "0.05 s", "--json", "--out", tmp_path),

@@ -288,6 +288,7 @@ def test_every_run_writes_the_same_bytes_and_parts_make_up_the_whole(
         assert cases == whole.slice(first, count).to_pydict()
 
 
+@pytest.mark.slow
 def test_memory_does_not_grow_with_the_cases(tmp_path: Path) -> None:
     program = (
         "import resource, sys; from replication.cli import main; main(sys.argv[1:]);"
