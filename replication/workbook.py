@@ -263,7 +263,7 @@ def _inputs(
         name = entry.name
         unchanged = "as inferred" if name == "rho_t" else "the report’s"
         check = "yours" if name in changed else unchanged
-        values |= {name: si[name]}
+        values[name] = si[name]
         values |= {f"{name}.{key}": number for key in ("typed", "number", "taken", "accepted")}
         values |= {f"{name}.{key}": check for key in ("check", "whose")}
         values |= {f"{name}.{key}": "" for key in ("below", "above", "fault")}

@@ -13,7 +13,7 @@ formula that cannot be computed here keeps its stored value, and `Evaluator.reas
 import re
 from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from operator import add, mul, sub
 from typing import NamedTuple
 
@@ -100,6 +100,11 @@ class Shape:
     literals: tuple[float, ...] = ()
     names: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
     reason: str | None = None
+
+    @cached_property
+    def has_subtotal(self) -> bool:
+        """Whether it calls SUBTOTAL."""
+        return "SUBTOTAL(" in self.key.upper()
 
 
 # ---- from a text to a shape
@@ -520,7 +525,6 @@ class Evaluator:
         self.reasons: dict[Position, str] = {}
         self.work = 0
         self._shapes: dict[tuple[str, str], Shape] = {}
-        self._with_subtotal: dict[Shape, bool] = {}
         for place, cell in book.cells():
             if cell.formula is None:
                 if cell.value is not None:
@@ -563,11 +567,7 @@ class Evaluator:
     def has_subtotal(self, place: Position) -> bool:
         """Whether a cell has a formula with SUBTOTAL, which other subtotals leave out."""
         shape = self.formulas.get(place)
-        if shape is None:
-            return False
-        if shape not in self._with_subtotal:
-            self._with_subtotal[shape] = "SUBTOTAL(" in shape.key.upper()
-        return self._with_subtotal[shape]
+        return shape is not None and shape.has_subtotal
 
     def areas(self, place: Position) -> list[Area]:
         """The areas that the formula of a cell refers to; none for a cell without a formula."""

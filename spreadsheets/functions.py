@@ -5,9 +5,9 @@ numbers; a number given directly may also be a text of digits or a truth value.
 """
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from reference.units import UnitError, same_dimension, to_si
+from reference.units import is_known, same_dimension, to_si
 from spreadsheets.scalars import (
     Area,
     CellError,
@@ -176,11 +176,18 @@ def _numbers_among(name: str, arguments: Arguments, at: Site) -> list[float]:
         if area is None:
             numbers.append(as_number(value, at))
             continue
-        for cell in cells_of(area, at):
-            if type(cell) is float:
-                numbers.append(cell)
-            elif type(cell) is Error and name != "COUNT":
-                raise CellError(cell)
+        numbers += _numbers_in(name, cells_of(area, at))
+    return numbers
+
+
+def _numbers_in(name: str, cells: Iterable[Scalar]) -> list[float]:
+    """The numbers among the values of cells; an error there is the result, but not of COUNT."""
+    numbers: list[float] = []
+    for cell in cells:
+        if type(cell) is float:
+            numbers.append(cell)
+        elif type(cell) is Error and name != "COUNT":
+            raise CellError(cell)
     return numbers
 
 
@@ -255,8 +262,10 @@ def _aggregate(name: str, arguments: Arguments) -> Run:
     return run
 
 
-_SUBTOTALS = ("AVERAGE", "COUNT", "COUNTA", "MAX", "MIN", "PRODUCT", "STDEV", "", "SUM")
-"""What SUBTOTAL computes by its first argument, from 1 on; STDEVP, 8, is not among them."""
+_SUBTOTALS = {
+    1: "AVERAGE", 2: "COUNT", 3: "COUNTA", 4: "MAX", 5: "MIN", 6: "PRODUCT", 7: "STDEV", 9: "SUM",
+}  # fmt: skip
+"""What SUBTOTAL computes by its first argument; STDEVP, 8, is not among them."""
 _WITHOUT_HIDDEN = 100
 """By so much the first argument is larger if rows that somebody hid are to be left out."""
 
@@ -271,22 +280,17 @@ def _subtotal(name: str, arguments: Arguments) -> Run:
 
     def run(at: Site) -> object:
         code = _whole(arguments[0], at)
-        kind = code - _WITHOUT_HIDDEN if code > _WITHOUT_HIDDEN else code
-        if not 1 <= kind <= len(_SUBTOTALS) or not _SUBTOTALS[kind - 1]:
+        without_hidden = code > _WITHOUT_HIDDEN
+        aggregate = _SUBTOTALS.get(code - _WITHOUT_HIDDEN if without_hidden else code)
+        if aggregate is None:
             raise NotComputedError(f"it uses SUBTOTAL({code}, ...)")
         areas = [area_of(argument(at)) if argument else None for argument in arguments[1:]]
         cells = [
-            cell
-            for area in areas
-            for cell in _shown_cells(area, at, without_hidden=code > _WITHOUT_HIDDEN)
+            cell for area in areas for cell in _shown_cells(area, at, without_hidden=without_hidden)
         ]
-        if _SUBTOTALS[kind - 1] == "COUNTA":
+        if aggregate == "COUNTA":
             return float(sum(cell is not None for cell in cells))
-        for cell in cells:
-            if type(cell) is Error and kind != 2:
-                raise CellError(cell)
-        numbers = [cell for cell in cells if type(cell) is float]
-        return finite(AGGREGATES[_SUBTOTALS[kind - 1]](numbers))
+        return finite(AGGREGATES[aggregate](_numbers_in(aggregate, cells)))
 
     return run
 
@@ -767,14 +771,11 @@ def _convert(name: str, arguments: Arguments) -> Run:
     def run(at: Site) -> object:
         x, *units = (0.0 if a is None else scalar(a(at), at) for a in arguments)
         own, wanted = (_OTHER_NAMES.get(str(unit), str(unit)) for unit in units)
-        try:
-            alike = same_dimension(own, wanted)
-            factor = to_si(own) / to_si(wanted)
-        except UnitError as error:
-            raise NotComputedError(f"it converts {own[:20]} to {wanted[:20]}") from error
-        if not alike:
+        if not (is_known(own) and is_known(wanted)):
+            raise NotComputedError(f"it converts {own[:20]} to {wanted[:20]}")
+        if not same_dimension(own, wanted):
             raise CellError("#N/A")
-        return finite(as_number(x, at) * float(factor))
+        return finite(as_number(x, at) * float(to_si(own) / to_si(wanted)))
 
     return run
 

@@ -72,6 +72,11 @@ def formula(key: str, expression: str, style: str = "number", **more: Any) -> Ce
     return Cell(key=key, formula=expression, style=style, **more)
 
 
+def said_while(name: str, words: str) -> Cell:
+    """Return the cell `says_<name>`: its words while `is_<name>` is 1, or nothing."""
+    return formula(f"says_{name}", f'=IF(is_{name}=1,"{words}","")', "text", named=True)
+
+
 def recorded(number: float | str, **more: Any) -> Cell:
     """Return a cell with a number, or the key of a number, that no change of an input affects."""
     if isinstance(number, str):
@@ -250,8 +255,7 @@ class SheetPlan:
         The two cells are named `is_` and `says_`, and then `name`. The chain of all cells that say
         something is the message of the sheet; only one of them is not blank.
         """
-        says = formula(f"says_{name}", f'=IF(is_{name}=1,"{words}","")', "text", named=True)
-        self.cells[f"{self.columns[5]}{self.row}"] = says
+        self.cells[f"{self.columns[5]}{self.row}"] = said_while(name, words)
         self.line(f"is_{name}", "", meaning, expression, shown=YES_OR_NO)
 
     def repeat(

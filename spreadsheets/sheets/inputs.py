@@ -18,6 +18,7 @@ from spreadsheets.plan import (
     formula,
     printed,
     recorded,
+    said_while,
     unit_text,
 )
 from spreadsheets.sheets import messages
@@ -297,12 +298,10 @@ def _summary(sheet: SheetPlan, checks: str) -> None:
 
     def state(row: int, name: str, expression: str) -> None:
         """Add whether a state holds, of which one does, and what A7 says while it holds."""
-        words = messages.INPUTS_SAY[name]
-        says = f'=IF(is_{name}=1,"{words}","")'
         sheet.cells |= {
             f"M{row}": Cell(name, "unit"),
             f"N{row}": formula(f"is_{name}", expression, named=True, shown=YES_OR_NO),
-            f"O{row}": formula(f"says_{name}", says, "text", named=True),
+            f"O{row}": said_while(name, messages.INPUTS_SAY[name]),
         }
 
     state(4, "unusable", "=IF(inputs_unusable>0,1,0)")

@@ -62,9 +62,6 @@ def test_a_name_that_spreadsheets_refuse_is_an_error() -> None:
         emit.to_bytes(plan_of(A1=Cell(key="v0", named=True)), {"v0": 1.0})
 
 
-# Formulas
-
-
 # Parts
 
 

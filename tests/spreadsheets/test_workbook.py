@@ -253,8 +253,8 @@ def test_its_words_stay_true_when_it_was_saved_as_ods(
         if not (tmp_path / "book.ods").exists():
             subprocess.run(command, capture_output=True, check=False)
     again = converted(tmp_path / "book.ods", tmp_path, 1_000_000)
-    before, after = (list(engine.recalculate_many([file])) for file in (path, again))
-    for sheet, cells in before[0].items():
+    before, after = engine.recalculate_many([path, again])
+    for sheet, cells in before.items():
         for address, value in cells.items():
             if isinstance(value, str):
-                assert after[0][sheet].get(address, "") == value, (sheet, address)
+                assert after[sheet].get(address, "") == value, (sheet, address)
