@@ -16,6 +16,7 @@ from reference.ledger import Claim
 from reference.scheme import Scheme
 from replication.audit.comparison import BETAS
 from replication.audit.findings.resistance import johnson_cook_copper, resistances
+from replication.audit.findings.sheet import depth_by_sheet
 from replication.audit.findings.stream import GAUSSIAN
 from replication.audit.record import Figure
 from replication.audit.results import DERIVED, Results, case, exact_ratio
@@ -294,7 +295,7 @@ def coarse_step(results: Results) -> list[Figure]:
     """Section 3: the results "did not change significantly" with a time step of 0.5 ns."""
 
     def micrometers(beta: int, scheme: Scheme, step: str) -> float:
-        return sheet.run(case(results, beta, step=results[step]), scheme).final_depth * 1e6
+        return depth_by_sheet(results, beta, scheme, step) * 1e6
 
     def change(beta: int, scheme: Scheme) -> float:
         coarse, fine = (micrometers(beta, scheme, step) for step in ("coarse-step", "a-step"))
