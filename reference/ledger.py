@@ -199,7 +199,6 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     inputs: Mapping[str, tuple[str, ...]] = {}
     within: str | None = None
     chosen: bool = False
-    bound: Fraction | None = None
 
     @cached_property
     def printed(self) -> Printed | None:
@@ -227,6 +226,11 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     def value(self) -> Fraction:
         """The number as printed, in SI. Raises ValueError for a remark."""
         return self.number.value * self.si
+
+    @cached_property
+    def bound(self) -> Fraction | None:
+        """The printed number, in its unit, if it is a bound; None for any other claim."""
+        return self.number.value if self.relation else None
 
     @property
     def is_exact(self) -> bool:
@@ -437,7 +441,6 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             },
             within=next(around, None),
             chosen=original.given == "choice",
-            bound=claim.number.value if claim.relation else None,
         )
 
     # The printed equations
@@ -574,8 +577,6 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         copy.__dict__.update(claims=claims, sides=sides)
         if name in claims:
             claims[name] = replace(claims[name], text=text)
-            if claims[name].relation:
-                claims[name] = replace(claims[name], bound=claims[name].number.value)
         if equation:
             with suppress(EquationError):
                 sides[equation] = self.read(copy.printed_text(equation))

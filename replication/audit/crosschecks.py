@@ -8,6 +8,7 @@ scale, and with rules and sheets that public sources print. Each has a function 
 from collections.abc import Callable, Collection
 from fractions import Fraction
 from math import cbrt, pi
+from typing import NamedTuple
 
 import msgspec
 
@@ -81,16 +82,32 @@ def brinell_ratio(ledger: Ledger) -> CrossCheck:
     return CrossCheck(agrees, says, with_sources=True)
 
 
-CROSS_CHECKS: dict[str, Callable[[Ledger], CrossCheck]] = {
-    "outlier-volume": outlier_volume,
-    "autodyne-time": autodyne_time,
-    "brinell-ratio": brinell_ratio,
-}
-"""The function that compares each of these numbers."""
+class CrossCheckFunction(NamedTuple):
+    """A function that compares a number, and the other claims of the report that it reads.
 
-COMPARED_WITH: dict[str, Collection[str]] = {
-    "outlier-volume": ("particle-size-least", "particle-size-greatest"),
-    "autodyne-time": ("mean-diameter", "autodyne-diameter", *claims_of_case(5).values()),
-    "brinell-ratio": (),
+    With them the verdict on the number may change.
+    """
+
+    compare: Callable[[Ledger], CrossCheck]
+    others: Collection[str]
+
+
+CROSS_CHECKS: dict[str, CrossCheckFunction] = {
+    "outlier-volume": CrossCheckFunction(
+        outlier_volume, ("particle-size-least", "particle-size-greatest")
+    ),
+    "autodyne-time": CrossCheckFunction(
+        autodyne_time, ("mean-diameter", "autodyne-diameter", *claims_of_case(5).values())
+    ),
+    "brinell-ratio": CrossCheckFunction(brinell_ratio, ()),
 }
-"""The other claims of the report that its function reads: with them its verdict may change."""
+"""How each of these numbers is compared."""
+
+
+def compared_with(claim: str) -> Collection[str]:
+    """Return the other claims with which a claim is compared; none if it is not compared.
+
+    >>> compared_with("outlier-volume"), compared_with("depth-beta-5")
+    (('particle-size-least', 'particle-size-greatest'), ())
+    """
+    return CROSS_CHECKS[claim].others if claim in CROSS_CHECKS else ()

@@ -16,7 +16,7 @@ from reference.enclosure import SolutionSet, find_solutions
 from reference.ledger import INFERRED, Claim, Ledger
 from reference.printed import parse
 from reference.units import to_si
-from replication.audit.crosschecks import COMPARED_WITH
+from replication.audit.crosschecks import CROSS_CHECKS, compared_with
 from replication.audit.ranking import forms_beside, rank
 from replication.audit.record import BackSolved, Proof, Repair
 from replication.audit.verdict import (
@@ -42,12 +42,13 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
         for claim in ledger.claims.values()
         if name in (claim.id, *claim.entries) or within in claim.uses
     }
+    changed = {name}
     for key, inferred in ledger.inferred.items():
         if direct & set(inferred.evidence):
             unknown = INFERRED + key
+            changed.add(unknown)
             direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
-            direct |= {claim for claim, claims in COMPARED_WITH.items() if unknown in claims}
-    direct |= {claim for claim, claims in COMPARED_WITH.items() if name in claims}
+    direct |= {claim for claim in CROSS_CHECKS if not changed.isdisjoint(compared_with(claim))}
     return direct | {c.id for c in ledger.claims.values() if direct & set(c.shown_by)}
 
 
@@ -153,7 +154,7 @@ class Explainer:
             claim = ledger.claims[name]
             equations = set(claim.uses)
             beside = {claim.within} if claim.within else set()
-            compared = ledger.claims.keys() & COMPARED_WITH.get(name, ())
+            compared = ledger.claims.keys() & compared_with(name)
             suspects = {name, *claim.stated} | beside | equations | compared
             for unknown in self.judge.moved.intersection(claim.entries):
                 # Its evidence excludes the nominal value, so what that rests on may be misprinted.
@@ -175,7 +176,7 @@ class Explainer:
             pairs = product(claim.computations, self._alternatives)
             return next((r for r, values in pairs if agrees(changed, claim, values, r)), None)
         own = entry == name and self.judge.is_confirmed(claim, claim.value)
-        related = own or entry in COMPARED_WITH.get(name, ())
+        related = own or entry in compared_with(name)
         return "" if related and not is_contradicted(changed, name) else None
 
     def _failing(self, entry: str, changed: Ledger) -> set[str]:
@@ -187,7 +188,7 @@ class Explainer:
             equations = derived_from(within)
             touched |= equations
             failing |= {name for name in equations if not follows(changed, name)}
-        compared = touched.intersection(COMPARED_WITH)
+        compared = touched.intersection(CROSS_CHECKS)
         failing |= {name for name in compared if is_contradicted(changed, name)}
         return (self._failing_now - touched) | failing
 
@@ -195,7 +196,7 @@ class Explainer:
     def _failing_now(self) -> set[str]:
         """All claims and equations that fail in the ledger as it is."""
         claims = disagreeing(self.ledger, self.ledger.claims, self.judge.assumed)
-        claims |= {name for name in COMPARED_WITH if is_contradicted(self.ledger, name)}
+        claims |= {name for name in CROSS_CHECKS if is_contradicted(self.ledger, name)}
         return claims | {name for name in self.ledger.equations if not follows(self.ledger, name)}
 
     # One misprint behind several failures

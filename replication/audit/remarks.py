@@ -16,6 +16,7 @@ from reference.ledger import Claim
 from reference.scheme import Scheme
 from replication.audit.comparison import BETAS
 from replication.audit.findings.resistance import johnson_cook_copper, resistances
+from replication.audit.findings.sheet import depth_by_sheet
 from replication.audit.findings.stream import GAUSSIAN
 from replication.audit.record import Figure
 from replication.audit.results import DERIVED, Results, case, exact_ratio
@@ -53,6 +54,16 @@ DEVIATIONS = (("mean", GAUSSIAN), ("standard", 1.0))
 
 The report says "mean"; the second is how the word is mostly used.
 """
+
+
+def percent_of_stream(results: Results, slow: str, fast: str, deviation: float) -> float:
+    """Return how many percent of a stream are faster than `fast`, `slow` being its average.
+
+    As many are slower than `slow` if `fast` is the average; both are claims. The deviation that
+    the report states is that of a normal distribution, as a multiple of its standard deviation.
+    """
+    distance = results[fast] - results[slow]
+    return percent_beyond(distance / results["velocity-deviation"] * deviation)
 
 
 def percent_more(value: float, than: float) -> float:
@@ -284,7 +295,7 @@ def coarse_step(results: Results) -> list[Figure]:
     """Section 3: the results "did not change significantly" with a time step of 0.5 ns."""
 
     def micrometers(beta: int, scheme: Scheme, step: str) -> float:
-        return sheet.run(case(results, beta, step=results[step]), scheme).final_depth * 1e6
+        return depth_by_sheet(results, beta, scheme, step) * 1e6
 
     def change(beta: int, scheme: Scheme) -> float:
         coarse, fine = (micrometers(beta, scheme, step) for step in ("coarse-step", "a-step"))
@@ -520,17 +531,15 @@ def larger_adhere(results: Results) -> list[Figure]:
 
 def slower_incipient(results: Results) -> list[Figure]:
     """Section 4: in fast streams "the slower particles" are those that just stick."""
-
-    def share(stream: str, deviations: float) -> float:
-        distance = results[stream] - results["velocity-521"]
-        return percent_beyond(distance / results["velocity-deviation"] * deviations)
-
     means = "share of the stream of {} m/s slower than 521 m/s, 50 m/s taken as {} deviation"
     streams = ("velocity-606", "velocity-704")
     return [
-        quantified(means.format(results.text(v), kind), "percent", share, v, deviations)
-        for v, (kind, deviations) in product(streams, DEVIATIONS)
-    ]
+        quantified(
+            means.format(results.text(stream), kind), "percent",
+            percent_of_stream, results, "velocity-521", stream, deviation,
+        )
+        for stream, (kind, deviation) in product(streams, DEVIATIONS)
+    ]  # fmt: skip
 
 
 def size_effect(results: Results) -> list[Figure]:
@@ -566,17 +575,15 @@ def velocity_effect(results: Results) -> list[Figure]:
 
 def too_few(results: Results) -> list[Figure]:
     """Section 4: particles of 450 m/s may have been "too few in number to be observed"."""
-
-    def share(average: str, deviations: float) -> float:
-        distance = results["stream-velocity-450"] - results[average]
-        return percent_beyond(distance / results["velocity-deviation"] * deviations)
-
     means = "share faster than 450 m/s about {} m/s, 50 m/s taken as {} deviation"
     averages = ("stream-velocity-400", "velocity-403")
     return [
-        quantified(means.format(results.text(average), kind), "percent", share, average, deviations)
-        for average, (kind, deviations) in product(averages, DEVIATIONS)
-    ]
+        quantified(
+            means.format(results.text(average), kind), "percent",
+            percent_of_stream, results, average, "stream-velocity-450", deviation,
+        )
+        for average, (kind, deviation) in product(averages, DEVIATIONS)
+    ]  # fmt: skip
 
 
 def faster_only(results: Results) -> list[Figure]:

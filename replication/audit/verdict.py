@@ -100,7 +100,7 @@ def is_consistent(ledger: Ledger, claim: Claim) -> bool:
 def _cross_checked(ledger: Ledger, name: str) -> Assessment:
     """Return the verdict on a number that is compared with others, which only limit it."""
     try:
-        checked = CROSS_CHECKS[name](ledger)
+        checked = CROSS_CHECKS[name].compare(ledger)
     except (ArithmeticError, ValueError) as error:  # an input has no meaning
         return Assessment(Verdict.INCONSISTENT, no_value=str(error))
     if checked.with_sources:

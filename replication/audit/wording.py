@@ -141,10 +141,10 @@ def _conditions_met(claim: Claim, reading: Reading) -> str:
     usual = [c for c in tried if (c.rounding, c.scheme) == (tried[0].rounding, tried[0].scheme)]
     alone = {words for own in _unmet(reading).values() for words in own if len(words) == 1}
     conditions = [_CUT_FAILS if (_CUT,) in alone else _EVERY_ROUNDING]
-    for key, fails, only, both in _SETTINGS:
+    for key, _, unusual, only, both in _SETTINGS:
         varied = claim.by_scheme if key == "scheme" else len({getattr(c, key) for c in usual}) > 1
         if varied:
-            conditions.append(only if (fails,) in alone else both)
+            conditions.append(only if (unusual,) in alone else both)
     *first, last = conditions
     return f"{', '.join(first)} and {last}" if first else last
 
@@ -179,21 +179,19 @@ _EVERY_ROUNDING, _CUT_FAILS = "three ways of rounding", "both ways of rounding t
 _CUT = "cut digits"
 
 _SETTINGS = (
-    ("choices_exact", "rounded choices of the author", "the author's choices exact",
+    ("choices_exact", False, "rounded choices of the author", "the author's choices exact",
      "the author's choices exact or rounded"),
-    ("header_exact", "an exact header of Table A-1", "the header of Table A-1 rounded",
+    ("header_exact", True, "an exact header of Table A-1", "the header of Table A-1 rounded",
      "the header of Table A-1 exact or rounded"),
-    ("scheme", "the drag at the middle velocity", "the drag at the initial velocity",
-     "both schemes"),
+    ("scheme", Scheme.CENTERED, "the drag at the middle velocity",
+     "the drag at the initial velocity", "both schemes"),
 )  # fmt: skip
-"""The settings of a convention: its key, the unusual value, only the usual one, and both."""
+"""The settings that concern inputs and sheet: key, unusual value; it, the usual one, and both."""
 
 _UNUSUAL = (
     ("rounding", Rounding.EVEN, "ties to even"),
     ("rounding", Rounding.CUT, _CUT),
-    ("choices_exact", False, "rounded choices of the author"),
-    ("header_exact", True, "an exact header of Table A-1"),
-    ("scheme", Scheme.CENTERED, "the drag at the middle velocity"),
+    *((key, value, words) for key, value, words, _, _ in _SETTINGS),
 )
 """The settings of a convention that differ from the usual one, in words."""
 

@@ -128,9 +128,7 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
     by_title = TERMINAL._replace(known="{title}")
     prose = Prose(by_title, record.symbols, words.names_of(record))
     writer = Terminal(prose, width, strong)
-    helpers = {
-        "fill": writer.filled, "table_text": writer.grid, "strong": writer.emphasized,
-    }  # fmt: skip
+    helpers = {"fill": writer.filled, "grid": writer.grid, "strong": writer.emphasized}
     return _from_template("summary.txt.j2", prose, {**parts, **helpers}).rstrip("\n")
 
 

@@ -62,8 +62,7 @@ def audit_document(record: Record) -> Document:
 def claim_document(record: ClaimRecord) -> Document:
     """Encode the record of one claim. What does not apply to it is null."""
     claim, place, worked = record.claim, record.claim.place, record.worked
-    is_number = claim.printed is not None or claim.bound is not None
-    interval = claim.interval() if is_number else None
+    interval = None if claim.printed is None else claim.interval()
     limits = None if interval is None else (interval.lower, interval.upper)
     readings = list(map(reading_document, record.assessment.readings, record.scopes))
     first, *others = readings or [dict[str, Any]()]

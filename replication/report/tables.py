@@ -25,7 +25,6 @@ NO_VALUE = "no value"
 def facts(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, str]]:
     """Return what is known of a claim, beside verdict and explanation, as labels and texts."""
     claim, first, error = record.claim, record.as_printed, record.error_in_last_digit
-    is_number = claim.printed is not None or claim.bound is not None
     inputs = (
         " × ".join(f"`{name}` {names[name].value}" for name in entries)
         for entries in claim.inputs.values()
@@ -33,7 +32,8 @@ def facts(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, 
     others = zip(record.assessment.readings[1:], record.scopes[1:], strict=True)
     cell = cells_of_claims().get(claim.id)
     texts = {
-        "rounds to it": is_number and quantity(str(claim.interval()).replace("E", "e"), claim.unit),
+        "rounds to it": claim.printed
+        and quantity(str(claim.interval()).replace("E", "e"), claim.unit),
         "computed": measured(record.computed, claim.unit, 10),
         "to 25 digits": first and first.reference,
         "proven range": first and between(first.judgements[0].ends),

@@ -32,15 +32,15 @@ class Terminal(NamedTuple):
         return columns([tuple(map(self.prose, row)) for row in rows], self.width)
 
     def grid(self, table: Table) -> str:
-        """Write a table without its caption."""
+        """Write a table below its caption."""
         heads, *rows = (tuple(map(self.prose, row)) for row in (table.heads, *table.rows))
-        return table_text(Table("", heads, rows), self.width)
+        caption = self.emphasized(self.filled(self.prose(table.caption)))
+        return f"{caption}\n{table_text(Table('', heads, rows), self.width)}"
 
     def grids(self, shown: Sequence[Table]) -> Iterator[str]:
-        """Yield the lines of tables, each after an empty one and below its caption."""
+        """Yield tables, each after an empty line."""
         for table in shown:
-            yield from ("", self.emphasized(self.filled(self.prose(table.caption))))
-            yield self.grid(table)
+            yield from ("", self.grid(table))
 
     def titles(self, findings: Sequence[Finding]) -> Iterator[str]:
         """Yield the titles of findings below a heading, if there are any."""

@@ -101,7 +101,8 @@ def shown_range(effect: r.Effect) -> str:
 
 def condition(record: r.ClaimRecord) -> str:
     """Return under which conventions a verdict holds, unless `USUAL_CONDITIONS` says it."""
-    said = record.verdict.is_open or any(r.otherwise for r in record.assessment.readings[:1])
+    first = record.as_printed
+    said = record.verdict.is_open or (first is not None and first.otherwise)
     return record.scope if said else ""
 
 

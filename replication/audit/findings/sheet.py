@@ -237,9 +237,8 @@ def least_middle_density(audit: Results) -> Fraction:
     printed = {name: audit.ledger.value(name) for name in claim.stated}
     function = audit.ledger.function(claim, scheme=Scheme.CENTERED)
     admitted = audit.judge.inference(DENSITY, scheme=Scheme.CENTERED).outer.ends
-    return find_solutions(function, DENSITY, admitted, claim.target(), SHEET_BUDGET, printed).outer[
-        0
-    ][0]
+    solutions = find_solutions(function, DENSITY, admitted, claim.target(), SHEET_BUDGET, printed)
+    return solutions.outer[0][0]
 
 
 def depth_by_sheet(audit: Results, beta: int, scheme: Scheme, step: str = "a-step") -> float:
