@@ -18,6 +18,7 @@ from replication.models.alternatives import (
 )
 from replication.models.impact import Impact, InputError
 from replication.user_input import (
+    KeyedError,
     advice,
     place,
     quoted,
@@ -69,8 +70,8 @@ greater than zero
             try:
                 impact = changed(impact, numbers)
             except InputError as error:
-                with within(*[key for key in [_input_of(error)] if key in numbers]):
-                    raise
+                key = _input_of(error)
+                raise KeyedError(str(error), (key,) if key in numbers else ()) from error
     values = {}
     for key, text in given.items():
         with place(option(key)):

@@ -93,7 +93,7 @@ def read_measurements(path: Path, impact: Impact) -> list[Measurement]:
     not have are the case's, and further columns are ignored: `measurement_columns` says which.
     Raises OSError, or ValueError that names the file and the line.
     """
-    return measurements_in(read_columns(path), impact)
+    return measurements_in(measurement_columns(read_columns(path)), impact)
 
 
 def measurement_columns(columns: Sequence[Column]) -> dict[str, Column]:
@@ -129,9 +129,8 @@ def _to_be_named(name: str, heads: Mapping[str, str]) -> str:
     return f"name {which} so, such as '{name} [{_UNITS[name]}]'"
 
 
-def measurements_in(columns: Sequence[Column], impact: Impact) -> list[Measurement]:
-    """Return the measurements that columns of a file have, as `read_measurements` reads them."""
-    known = measurement_columns(columns)
+def measurements_in(known: Mapping[str, Column], impact: Impact) -> list[Measurement]:
+    """Return the measurements that `measurement_columns` have, as `read_measurements` does."""
     measured = "depth" if "depth" in known else "normalized_depth"
     if "uncertainty" in known:
         check_uncertainty(known["uncertainty"], known[measured])
@@ -139,7 +138,7 @@ def measurements_in(columns: Sequence[Column], impact: Impact) -> list[Measureme
     numbers = {name: column.numbers(units[name]) for name, column in known.items()}
     case = {name: impact.motion[name] for name in HEADS if name in impact.motion}
     measurements, errors = [], []
-    for k, line in enumerate(columns[0].lines):
+    for k, line in enumerate(known["velocity"].lines):
         try:
             for name, column in known.items():
                 _check_positive(numbers[name][k], name, column, k)

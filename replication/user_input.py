@@ -123,15 +123,16 @@ def line_of(text: str, keys: Sequence[str]) -> int | None:
     r"""Return the line of a TOML text, counted from 1, on which the statement of these keys begins.
 
     No library that the project has says where a value stands, so the text is read statement by
-    statement, each under the head of its table, until one has the keys. None if none has them, or
-    if a statement goes on for so long that this would take too much time.
+    statement until one has the keys, or those of them that the head of its table has left. None if
+    none has them, or if a statement goes on for so long that this would take too much time.
 
     >>> line_of("[impact]\n# in um\nradius = 11\nbeta = 3", ["impact", "beta"])
     4
     """
     if not keys:
         return None
-    head, lines = "", text.replace("\r\n", "\n").split("\n")
+    lines = text.replace("\r\n", "\n").split("\n")
+    below_head: tuple[str, ...] | None = tuple(keys)
     first, tries = 0, 0
     for last, line in enumerate(lines):
         if last == first and (not line.strip() or line.lstrip().startswith("#")):
@@ -141,20 +142,37 @@ def line_of(text: str, keys: Sequence[str]) -> int | None:
             continue  # within a statement of several lines
         statement = "\n".join(lines[first : last + 1])
         try:
-            table: Any = tomllib.loads(f"{head}\n{statement}")
+            table = tomllib.loads(statement)
         except ValueError:
             tries += 1
             if tries > _MOST_TRIES:
                 return None
             continue
-        for key in keys:
-            table = table.get(key) if isinstance(table, dict) else None
-        if table is not None:
+        is_head = statement.lstrip().startswith("[")
+        left = _left_below(table, tuple(keys) if is_head else below_head)
+        if left == ():
             return first + 1
-        if statement.lstrip().startswith("["):
-            head = statement
+        if is_head:
+            below_head = left
         first, tries = last + 1, 0
     return None
+
+
+def _left_below(table: Any, keys: tuple[str, ...] | None) -> tuple[str, ...] | None:
+    """Return what is left of the keys at an empty table; () if all lead on, None if one does not.
+
+    >>> _left_below({"inputs": {}}, ("inputs", "beta")), _left_below({"sweep": {}}, ("inputs",))
+    (('beta',), None)
+    """
+    if keys is None:
+        return None
+    for count, key in enumerate(keys):
+        if table == {}:
+            return keys[count:]
+        if not isinstance(table, dict) or key not in table:
+            return None
+        table = table[key]
+    return ()
 
 
 _CLOSING = re.compile(r"""[]}]|\"{3}|'{3}""")

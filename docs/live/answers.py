@@ -12,12 +12,11 @@ from math import ulp
 from typing import Any
 
 from reference.ledger import load
-from reference.units import to_si
 from replication import error
 from replication.audit.audit import Audit
 from replication.audit.findings import finding
 from replication.cases import BETA_5, INPUTS, changed, modelled
-from replication.cli.case import EXPECTED, doubt
+from replication.cli.case import EXPECTED, doubt, range_in_words
 from replication.models import motion
 from replication.models.depth import final_depth
 from replication.models.impact import Impact, InputError
@@ -270,10 +269,7 @@ def _resistance(impact: Impact, text: str) -> Table:
         return {"refused": str(wrong)}
     return {
         "resistance": answer.value, "depth": answer.depth,
-        "range": answer.interval and _in_gigapascals(answer.interval),
-        "fewest_digits": answer.fewest_digits and _in_gigapascals(answer.fewest_digits),
+        "range": answer.interval and range_in_words("resistance", answer.interval),
+        "fewest_digits": answer.fewest_digits
+        and range_in_words("resistance", answer.fewest_digits),
     }  # fmt: skip
-
-
-def _in_gigapascals(interval: tuple[float, float]) -> str:
-    return f"{between([Fraction(end) / to_si('GPa') for end in interval], 5)} GPa"

@@ -10,7 +10,7 @@ from reference.units import to_si
 from replication.cases import BETA_5, CASES, INPUTS, inputs_of, option, read_case
 from replication.cli.options import path
 from replication.models.impact import Impact
-from replication.text import number, with_unit
+from replication.text import between, number, with_unit
 from replication.user_input import read_number, typed_unit
 
 OF_THE_SHEET = ("step", "stop_velocity")
@@ -236,6 +236,16 @@ def input_in_words(name: str, value: float, digits: int = 8) -> str:
     unit = shown_in(name)
     short = with_unit(number(Fraction(value) / to_si(unit), digits), unit)
     return f"{short} ({with_unit(repr(value), INPUTS[name])})"
+
+
+def range_in_words(name: str, ends: tuple[float, float]) -> str:
+    """Return a range (SI) of an input as it is read, to five digits; it is rounded outward.
+
+    >>> range_in_words("resistance", (17.3333333e9, 18.4444444e9))
+    '17.333 to 18.445 GPa'
+    """
+    unit = shown_in(name)
+    return with_unit(between([Fraction(end) / to_si(unit) for end in ends], 5), unit)
 
 
 def refuse_sought(quantity: str, given: Mapping[str, str], what_is_done: str) -> None:

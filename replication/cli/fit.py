@@ -71,9 +71,9 @@ def run(options: argparse.Namespace) -> int:
     check_factor(case, quantity)
     points = checked(options, _further_points, options.file, options.case_file)
     columns = read_columns(options.file)
-    measurements = measurements_in(columns, case)
-    used = measurement_columns(columns).values()
-    notes = note_of_unused(columns, used) + notes_on(points)
+    known = measurement_columns(columns)
+    measurements = measurements_in(known, case)
+    notes = note_of_unused(columns, known.values()) + notes_on(points)
     with place(str(options.file)):
         fitted = fit(case, measurements, quantity)
     warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))

@@ -2,9 +2,7 @@
 
 import argparse
 from collections.abc import Mapping
-from fractions import Fraction
 
-from reference.units import to_si
 from replication.cases import option
 from replication.cli.case import (
     add_inputs,
@@ -13,14 +11,14 @@ from replication.cli.case import (
     given_inputs,
     input_in_words,
     inputs_in_words,
+    range_in_words,
     refuse_sought,
-    shown_in,
 )
 from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import paragraph, put, width
 from replication.models.impact import Impact, InputError
 from replication.solve import DEPTHS, QUANTITIES, Solution, solve, solve_printed
-from replication.text import between, columns, number, with_unit
+from replication.text import columns, number
 from replication.user_input import place, quoted, read_number
 
 HELP = "print the resistance, velocity, ... that gives a final depth"
@@ -132,7 +130,7 @@ def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:
         rows.append(("range", _proven_range(answer, texts)))
     if answer.fewest_digits is not None:
         none = "" if answer.fewest_digits[0] > 0 else "; for some of that there is none"
-        ends = _in_its_unit(answer, answer.fewest_digits)
+        ends = range_in_words(answer.quantity, answer.fewest_digits)
         means = f"if the zeros that end a whole number count for none{none}"
         rows.append(("fewest digits", f"{ends}, {means}"))
     if answer.condition is not None:
@@ -145,15 +143,9 @@ def _proven_range(answer: Solution, texts: Mapping[str, str]) -> str:
     """Return the interval, rounded outward, and for which texts it is proven."""
     assert answer.interval is not None
     alike = ", ".join(f"{_without_underscores(name)} {text}" for name, text in texts.items())
-    ends = _in_its_unit(answer, answer.interval)
+    ends = range_in_words(answer.quantity, answer.interval)
     proven = f"{ends}, proven for all that prints as {alike}"
     return proven if answer.interval[0] > 0 else f"{proven}; for some of that there is none"
-
-
-def _in_its_unit(answer: Solution, interval: tuple[float, float]) -> str:
-    """Return an interval of the quantity in the unit in which it is shown."""
-    unit = shown_in(answer.quantity)
-    return with_unit(between([Fraction(end) / to_si(unit) for end in interval], 5), unit)
 
 
 def _without_underscores(name: str) -> str:

@@ -120,7 +120,7 @@ FIGURES: dict[str, tuple[Callable[[Path], Figure], int]] = {
 @pytest.fixture(scope="module")
 def figures(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Figure]:
     folder = tmp_path_factory.mktemp("figures")
-    return {name: draw_figures(folder) for name, (draw_figures, _) in FIGURES.items()}
+    return {name: draw(folder) for name, (draw, _) in FIGURES.items()}
 
 
 @pytest.fixture(scope="module")

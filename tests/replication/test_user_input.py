@@ -46,6 +46,11 @@ def test_the_line_of_a_key(keys: list[str], line: int | None, ending: str) -> No
     assert line_of(PLAN.replace("\n", ending), keys) == line
 
 
+def test_a_table_within_a_list_of_tables_is_on_its_own_line() -> None:
+    """Its head has all the keys; the head after it has none of them."""
+    assert line_of("[[inputs]]\n[[inputs.radius]]\n[sweep]", ["inputs", "radius"]) == 2
+
+
 def test_a_line_that_would_be_found_too_late_is_not_named() -> None:
     """A statement is read at most a hundred times."""
     rows = "[\n" + 1000 * "[1],\n" + "]"
