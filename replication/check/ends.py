@@ -27,6 +27,7 @@ from replication.check.six import (
 from replication.check.table import cell_name
 from replication.check.taken import report_case, report_inputs
 from replication.check.words import input_roles, times_too, title
+from replication.models.impact import STOP_VELOCITY
 from spreadsheets.foreign import Position
 
 OTHER_STOP = "other stop"
@@ -264,7 +265,7 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
         for a in ours for b in ours if a != b
     )  # fmt: skip
     faults = [d for d in exam.differences if d.kind not in NO_FAULT or d.kind == "other input"]
-    is_report = stop == 1.0 and report_case(six, exam.fitted) is not None
+    is_report = stop == STOP_VELOCITY and report_case(six, exam.fitted) is not None
     column = end_of_row(table)[0]
     exam.cut_short = is_report and not faults and not prepared and 2 * table.steps < steps
     if is_report and not faults and not prepared and steps // 2 <= table.steps < steps - 1:
@@ -285,12 +286,12 @@ def _stop_velocity(
     last, before = speeds[max(speeds)], speeds.get(max(speeds) - 1, math.inf)
     labelled = exam.inputs.get("stop_velocity")
     own = labelled is not None and (labelled.place is None or exam.on_own_sheets(labelled.place))
-    if last < 1.0 <= before and exam.firm_speed and not own:
-        return 1.0
+    if last < STOP_VELOCITY <= before and exam.firm_speed and not own:
+        return STOP_VELOCITY
     if labelled is not None and (exam.firm_speed or last < labelled.si <= before):
         return labelled.si
-    if last < 1.0 <= before:
-        return 1.0
+    if last < STOP_VELOCITY <= before:
+        return STOP_VELOCITY
     taken = {e.place for role, e in exam.inputs.items() if role != "stop_velocity"}
     for place in (*sorted(exam.read), *idle):
         value = exam.table.evaluator.values.get(place)
@@ -300,10 +301,10 @@ def _stop_velocity(
                 if last < each <= before and each <= _SLOW * exam.fitted.six.V * unit:
                     return float(each)
     if exam.firm_speed and report_case(exam.intended, exam.fitted) is not None:
-        return 1.0
+        return STOP_VELOCITY
     # Nobody states it, or its unit: the rows should end with the first velocity below zero.
     earlier = (v for k, v in speeds.items() if v > 0 and k != max(speeds))
-    return min([1.0, *earlier])
+    return min([STOP_VELOCITY, *earlier])
 
 
 def _at_rest(exam: Examination, below: int) -> bool:

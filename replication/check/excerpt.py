@@ -5,6 +5,7 @@ import math
 from replication.check.examination import Examination
 from replication.check.six import Step, run_scheme
 from replication.check.taken import OTHER_STEP, is_report, report_inputs, report_six
+from replication.models.impact import STOP_VELOCITY
 
 _CLOSE = 1e-3
 """Relative uncertainty of the report's rows: it prints its mass, say, with three digits."""
@@ -55,7 +56,7 @@ def _rows_meant(exam: Examination) -> list[Step] | None:
         return None
     if any(line.computed for line in table.lines.values()) or not _step(exam):
         return None
-    return run_scheme(report_six(inputs["resistance"].si, _step(exam)), 1.0)
+    return run_scheme(report_six(inputs["resistance"].si, _step(exam)), STOP_VELOCITY)
 
 
 def _step(exam: Examination) -> float:

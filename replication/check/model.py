@@ -44,8 +44,8 @@ def refuse_other_model(exam: Examination, inputs: Inputs, balances: Sequence[Bal
             )
     _refuse_zero(inputs)
     if fitted.probe is None:
-        # In a workbook a single number typed with more digits than its column may be the reason.
-        if exam.table.evaluator.book.is_text and fitted.followed <= MOST:
+        is_typed = not any(line.computed for line in exam.table.lines.values())
+        if is_typed and fitted.followed <= MOST:
             raise AnotherModelError(other_method(exam.table))
         if not (_rows_agree(exam) and _steps_agree(balances, inputs)):
             raise AnotherModelError(_sentence(exam, "deceleration"))

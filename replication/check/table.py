@@ -29,6 +29,8 @@ _GAP = 3
 """So many blank rows may be left out inside a table."""
 _HEADS = 5
 """How far above its numbers the head of a line may stand."""
+_FAR_MORE = 3
+"""That all numbers of a column but one end in so many zeros is no chance."""
 _EXACT = 1e-9
 """Relative difference up to which formulas follow a relation; they round to some 1e-15."""
 _ABOUT = 0.01
@@ -172,13 +174,21 @@ class Line:
 
     @cached_property
     def _digits(self) -> tuple[int, int]:
-        """The most digits of a typed or printed number, and the power of ten of the last digit."""
+        """The most digits of a typed or printed number, and the power of ten of the last digit.
+
+        A single number with far more digits, and decimals, than all others says nothing of these.
+        """
         printed = self.evaluator.book.digits.get(self.sheet, {})
         counts = [
             printed.get(self.place(i)[1:]) or digits_of(value)
             for i, value in self.values.items()
             if value
         ]
+        if len(counts) > 1:
+            (digits, last), *others = sorted(counts, key=lambda count: count[1])
+            most, least = max(n for n, _ in others), others[0][1]
+            if digits >= most + _FAR_MORE and last <= least - _FAR_MORE:
+                counts = others
         return max((n for n, _ in counts), default=15), min((p for _, p in counts), default=-300)
 
     def rounding(self, value: float) -> float:

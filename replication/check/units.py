@@ -40,7 +40,7 @@ class Magnitude:
     error: float = 0.0
 
     def __mul__(self, other: "Magnitude") -> "Magnitude":
-        items = self.units.keys() | other.units.keys()
+        items = dict.fromkeys((*self.units, *other.units))  # in an order that every run has
         powers = {i: self.units.get(i, 0.0) + other.units.get(i, 0.0) for i in items}
         error = self.error + other.error
         return Magnitude(self.log + other.log, {i: n for i, n in powers.items() if n}, error)

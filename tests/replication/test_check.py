@@ -29,6 +29,8 @@ from running import coldspray
 from workbooks import usable
 
 from replication.cases import BETA_5
+from replication.check.responses import Item
+from replication.check.units import Magnitude
 from replication.models import sheet as midpoint
 from replication.models.impact import Impact
 
@@ -136,6 +138,16 @@ def test_right_numbers_without_formulas_are_clean(seed: int, tmp_path: Path) -> 
     right = build(draw(seed, pasted=True))
     assert right is not None
     assert told(ask(written(right.book, tmp_path))) == "0"
+
+
+def test_the_units_of_a_product_are_in_the_order_of_its_factors() -> None:
+    """Of units that nobody states the first that fit are taken: on every run the same."""
+    names = ("time", "depth", "velocity_initial", "deceleration", "velocity_final")
+    items: list[Item] = [("column", name) for name in names]
+    product = Magnitude(0.0)
+    for item in items:
+        product *= Magnitude(0.0, {item: 1.0})
+    assert list(product.units) == items
 
 
 @pytest.mark.slow

@@ -334,6 +334,13 @@ def test_what_holds_no_table_is_refused(content: str | bytes, message: str, tmp_
     assert "\n" not in str(error.value)
 
 
+def test_a_single_number_with_far_more_digits_than_its_column_is_named(tmp_path: Path) -> None:
+    lines = csv(sheet(BETA_5, SHORT), SHORT, ".5f").splitlines()
+    time, velocity, _ = lines[41].split(",")
+    lines[41] = f"{time},{velocity},3.8000000001"
+    assert told("\n".join(lines), tmp_path) == "line 42, column 'depth [um]': typed number"
+
+
 def test_text_and_json_name_lines_and_cells(tmp_path: Path) -> None:
     rows = sheet(BETA_5, SHORT)
     rows[40][2] = 3.8
