@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
-from itertools import count as count_from
+from itertools import count
 from math import inf, isinf
 
 import msgspec
@@ -194,8 +194,10 @@ def _crossing(
 ) -> Ends:
     """Bracket the input at which a monotone function enters the target (end 0) or leaves it (1).
 
-    `at_ends` are its values at the ends of the part. The bracket is narrowed by the Illinois
-    method, that is by secants between its ends. Each end is proven to lie on its side.
+    `at_ends` are its values at the ends of the part. The Illinois method narrows the bracket: each
+    new end is the zero of the secant between the ends, and where the same end moves twice, half the
+    value is taken at the other. Every fourth time the bracket is halved, as secants can be slow.
+    Each end is proven to lie on its side, however it was chosen.
     """
     at_lower = rises == (end == 0)
     goal = target.lower if at_lower else target.upper
@@ -203,29 +205,31 @@ def _crossing(
     # The function may lie in the target up to this end of the part.
     if goal is None or (least > goal if at_lower else greatest < goal):
         return part[end], part[end]
-    (low, high), width = part, (part[1] - part[0]) / 2**60  # finer than doubles: all their digits hold
-    at_low, at_high = (sum(ends, -2 * goal) for ends in at_ends)  # twice the value less the goal
-    last_moved = ""
-    for count in count_from(1):
+    # Twice the function less the goal, at both ends.
+    at_low, at_high = (least + greatest - 2 * goal for least, greatest in at_ends)
+    (low, high), width = part, (part[1] - part[0]) / 2**60  # so that all digits of a double hold
+    moved = ""
+    for attempt in count(1):
         if high - low <= width:
             break
-        share = min(max(at_low / (at_low - at_high), 0), 1) if at_low != at_high else Fraction(1, 2)
-        # A little beyond the secant's zero, so that the end that is farther away moves as well.
-        x = low + share * (high - low) + (width / 3 if 2 * share < 1 else -width / 3)
-        if count % 4 == 0:  # for the case that secants are slow
+        if attempt % 4 == 0:  # not the exact middle, where a simple function might hit the goal
             x = low + (high - low) * Fraction(49, 100)
+        else:
+            share = at_low / (at_low - at_high) if at_low != at_high else Fraction(1, 2)
+            # Past the secant's zero by a little, so that the end which is farther away moves, too.
+            x = low + share * (high - low) + (width / 3 if share < Fraction(1, 2) else -width / 3)
         x = x.limit_denominator(10**30)
         below, above = value(x)
         if below <= goal <= above or not low < x < high:
             break
         if (above < goal) == rises:
             low, at_low = x, below + above - 2 * goal
-            at_high /= 2 if last_moved == "low" else 1
-            last_moved = "low"
+            at_high /= 2 if moved == "low" else 1
+            moved = "low"
         else:
             high, at_high = x, below + above - 2 * goal
-            at_low /= 2 if last_moved == "high" else 1
-            last_moved = "high"
+            at_low /= 2 if moved == "high" else 1
+            moved = "high"
     return low, high
 
 
