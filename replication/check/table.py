@@ -748,13 +748,24 @@ def _first_row(
     step = abs(c * v)
     if x is None or not step:
         return 0, True
-    if abs(x) < 0.25 * step:
+    if abs(x) < 0.25 * step or _is_half_step_next(depth, speed, indices, c):
         return 0, True
     if abs(x) < 1.6 * step and role == "velocity_initial":
         return 1, True
     if abs(x) < 1.6 * step:
         return 1, True
     return 0, False
+
+
+def _is_half_step_next(depth: Line, speed: Line, indices: Sequence[int], c: float) -> bool:
+    """Whether the second row of a table of numbers has moved by half a step from the surface.
+
+    It is then the first step, and the row before it the impact, whatever that one holds.
+    """
+    x, v = depth.values.get(indices[1]), speed.values.get(indices[1])
+    if x is None or not v or depth.computed:
+        return False
+    return abs(x - c * v / 2) <= _ABOUT * abs(c * v) + depth.rounding(x)
 
 
 def _brake_line(
