@@ -14,6 +14,7 @@ from replication.check.fit import Probe
 from replication.check.roles import Inputs
 from replication.check.six import EXACT, VARIANTS, start_of_row
 from replication.check.table import LEAST, Line, SchemeTable, behind, runs
+from replication.check.times import judge_times
 from replication.check.words import COLUMNS, title
 from replication.user_input import quoted
 from spreadsheets.evaluate import Evaluator, Shape, formula_text
@@ -168,7 +169,7 @@ def odd_cells(exam: Examination, inputs: Inputs) -> None:
             cells = [p for p in exam.cells(role, 1) if p not in table.evaluator.formulas]
             text = f"the whole column of {title(role)} is typed as numbers"
             exam.add("typed number", cells, None, text)
-        else:
+        elif not (_is_of_numbers(exam, role, line) and judge_times(exam)):
             _judge_line(exam, inputs, line, role)
     helpers = [line for line in feeding(table) if line.usual is not None]
     for helper in helpers:
@@ -176,6 +177,11 @@ def odd_cells(exam: Examination, inputs: Inputs) -> None:
     _blank_rows(exam)
     _broken_off(exam, [*table.lines.values(), *helpers])
     _broken_times(exam)
+
+
+def _is_of_numbers(exam: Examination, role: str, line: Line) -> bool:
+    """Whether a column has the times of a table without formulas."""
+    return role == "time" and exam.fitted.probe is None and not line.computed
 
 
 def _is_pasted(exam: Examination, role: str, line: Line) -> bool:

@@ -97,7 +97,7 @@ def _first_start(exam: Examination) -> tuple[str, int]:
 
 
 def _brake(exam: Examination) -> Iterator[tuple[str, float, str]]:
-    """A deceleration at the impact outside zero, that at the surface, and that of the first step."""
+    """A deceleration at the impact that is not between zero, as at the surface, and the next."""
     if "deceleration" not in exam.table.lines:
         return
     line = exam.table.lines["deceleration"]

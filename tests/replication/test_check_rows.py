@@ -1,6 +1,7 @@
-"""`check` on rows of which one thing is wrong, or that only look wrong, made by integrators here."""
+"""`check` on rows made by integrators here: one thing in them is wrong, or only looks wrong."""
 
 import math
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -87,3 +88,68 @@ def test_other_ways_to_fill_the_row_of_the_impact_are_clean(
 def test_a_wrong_velocity_and_depth_of_the_impact_are_both_named(tmp_path: Path) -> None:
     rows = changed(changed(sheet(), 0, 1, 5.0), 0, 2, 1.0)
     assert faults(text(rows), tmp_path) == [(2, HEADS[1], 500.0), (2, HEADS[2], 0.0)]
+
+
+# ---- times
+
+
+@pytest.mark.parametrize(("form", "value"), [
+    (".1f", 12.2), (".1f", 12.1), (".2f", 12.02), (".6f", 12.00001), (".4g", 12.03),
+])  # fmt: skip
+def test_a_time_is_known_to_half_a_unit_of_its_last_digit(
+    form: str, value: float, tmp_path: Path
+) -> None:
+    rows = changed(sheet(), 60, 0, value)
+    ((line, head, expected),) = faults(text(rows, 3, (form, *FORMS[1:])), tmp_path)
+    assert (line, head, expected) == (62, HEADS[0], pytest.approx(12.0))
+
+
+def with_times(time: Callable[[int], float], dt: float = DT) -> Rows:
+    """Right rows with other times."""
+    return [[time(k), *row[1:]] for k, row in enumerate(sheet(dt))]
+
+
+def test_times_that_are_late_from_a_row_on_are_named_once(tmp_path: Path) -> None:
+    rows = with_times(lambda k: 0.2 * (k + (k >= 60)))
+    assert faults(text(rows), tmp_path) == [(62, HEADS[0], pytest.approx(12.0))]
+
+
+def test_a_time_of_the_impact_that_the_others_do_not_give_is_named(tmp_path: Path) -> None:
+    assert faults(text(changed(sheet(), 0, 0, 3.0)), tmp_path) == [(2, HEADS[0], 0.0)]
+
+
+def test_times_that_grow_by_another_step_than_the_depths_are_named(tmp_path: Path) -> None:
+    ((line, head, _),) = faults(text(with_times(lambda k: 0.21 * k), 3, (".2f", ".6f", ".8f")),
+                                tmp_path)  # fmt: skip
+    assert (line, head) == (3, HEADS[0])
+
+
+def single(k: int) -> float:
+    """The time of row k as a program in single precision adds it up."""
+    import numpy as np
+
+    total = np.float32(0)
+    for _ in range(k):
+        total += np.float32(0.2)
+    return float(total)
+
+
+@pytest.mark.parametrize(("time", "dt", "form"), [
+    (lambda k: max(0.0, 0.2 * k - 0.1), DT, ".1f"),
+    (lambda k: max(0.0, 0.2 * k - 0.2), DT, ".1f"),
+    (lambda k: 0.2 * k + 0.07, DT, ".1f"),
+    (lambda k: math.floor(2 * k) / 10, DT, ".1f"),
+    (lambda k: k / 3, 1e-9 / 3, ".1f"),
+    (lambda k: k / 4, 2.5e-10, ".1f"),
+    (lambda k: 0.0234567 * k, 2.34567e-11, ".1f"),
+    (lambda k: 0.2 * k, DT, ".4e"),
+    (lambda k: 0.2 * k, DT, ""),
+    (single, DT, ".4f"),
+    (single, DT, ".6g"),
+], ids=["half a step before", "a step before", "delayed", "cut off", "thirds", "ties", "coarse",
+        "exponents", "all digits", "single precision", "single precision, six digits"])  # fmt: skip
+def test_other_ways_to_count_times_are_clean(
+    time: Callable[[int], float], dt: float, form: str, tmp_path: Path
+) -> None:
+    rows = text(with_times(time, dt), 3, (form, ".6f", ".8f"))
+    assert faults(rows, tmp_path) == []
