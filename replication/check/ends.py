@@ -12,8 +12,9 @@ from replication.check.cells import (
     predicted,
     typed_what,
 )
-from replication.check.examination import NO_FAULT, Examination, near
+from replication.check.examination import NO_FAULT, AnotherModelError, Examination, near
 from replication.check.fit import grows_beyond, is_bounded
+from replication.check.model import maybe_other_method
 from replication.check.responses import Influence, is_plain
 from replication.check.roles import Inputs
 from replication.check.six import (
@@ -84,8 +85,7 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
             text = f"the first depth is typed, though it rests on {cell_name(step.cell, True)}"
             exam.add("typed number", [place], wanted, text + RIGHT_HERE)
         return
-    named = {"no half step": 2.0, "starts at zero": 0.0}
-    name = next((name for name, times in named.items() if abs(ratio - times) <= slack), None)
+    name = _named_start(exam, ratio, slack)
     power = math.log10(ratio) if ratio > 0 else math.nan
     if name and (is_formula or not line.computed or not ratio):
         exam.add("other scheme", [place], wanted, f"{name}: {VARIANTS[name].says}")
@@ -98,6 +98,18 @@ def _first_depth(exam: Examination, inputs: Inputs) -> None:
     else:
         text = f"{formula_at(exam, place)} does not give V times half a step"
         exam.add("odd formula", [place], wanted, text)
+
+
+def _named_start(exam: Examination, ratio: float, slack: float) -> str | None:
+    """The name of a first depth that is so many times half a step; None if it has none.
+
+    Raises AnotherModelError if it is a whole step, as in other methods, and the rows do not tell.
+    """
+    named = {"no half step": 2.0, "starts at zero": 0.0}
+    name = next((name for name, times in named.items() if abs(ratio - times) <= slack), None)
+    if name == "no half step" and not exam.fitted.told:
+        raise AnotherModelError(maybe_other_method(exam.table, name))
+    return name
 
 
 def _no_number(exam: Examination, place: Position, what: str, wanted: float) -> None:

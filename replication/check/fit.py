@@ -16,6 +16,7 @@ from replication.check.six import (
     REPORT,
     ROUNDED,
     VARIANTS,
+    Errors,
     Six,
     State,
     Variant,
@@ -131,7 +132,8 @@ class TableFit:
     relative errors of the six that digits admit, and `time_error` that of the time. Of
     numbers without formulas `bounded` says whether the area stays the same beyond D/2, `digits` is
     the relative uncertainty of the numbers as typed, `rough` that of the decelerations they show,
-    and `followed` is the least share of its rows that a column has as its numbers give it.
+    `followed` is the least share of its rows that a column has as its numbers give it, and `told`
+    says whether they tell that the depth grows by one velocity and not by the mean of two.
     """
 
     six: Six
@@ -142,7 +144,7 @@ class TableFit:
     force: Force | None = None
     centered: bool = False
     probe: Probe | None = None
-    errors: Six = ROUNDED
+    errors: Errors = ROUNDED
     time_error: float = EXACT
     time_adds: bool = False
     depth_adds: bool = True
@@ -150,6 +152,7 @@ class TableFit:
     digits: float = EXACT
     rough: float = EXACT
     followed: float = 1.0
+    told: bool = True
 
     @property
     def odd(self) -> list[Variant | None]:

@@ -44,11 +44,7 @@ def refuse_other_model(exam: Examination, inputs: Inputs, balances: Sequence[Bal
             )
     _refuse_zero(inputs)
     if fitted.probe is None:
-        is_typed = not any(line.computed for line in exam.table.lines.values())
-        if is_typed and fitted.followed <= MOST:
-            raise AnotherModelError(other_method(exam.table))
-        if not (_rows_agree(exam) and _steps_agree(balances, inputs)):
-            raise AnotherModelError(_sentence(exam, "deceleration"))
+        _refuse_numbers(exam, inputs, balances)
         return
     wrong = [role for role, way in fitted.ways.items() if way is not REPORT[role]]
     force = fitted.ways.get("deceleration", REPORT["deceleration"])
@@ -64,6 +60,18 @@ def refuse_other_model(exam: Examination, inputs: Inputs, balances: Sequence[Bal
     raise AnotherModelError(
         _sentence(exam, wrong[0] if "deceleration" not in wrong else "deceleration")
     )
+
+
+def _refuse_numbers(exam: Examination, inputs: Inputs, balances: Sequence[Balance]) -> None:
+    """Raise AnotherModelError if rows without formulas do not follow the report's scheme."""
+    fitted = exam.fitted
+    is_typed = not any(line.computed for line in exam.table.lines.values())
+    if is_typed and fitted.followed <= MOST:
+        raise AnotherModelError(other_method(exam.table))
+    if is_typed and not fitted.told and fitted.ways["depth"] is VARIANTS["explicit Euler"]:
+        raise AnotherModelError(maybe_other_method(exam.table, "explicit Euler"))
+    if not (_rows_agree(exam) and _steps_agree(balances, inputs)):
+        raise AnotherModelError(_sentence(exam, "deceleration"))
 
 
 def _refuse_zero(inputs: Inputs) -> None:
@@ -160,6 +168,22 @@ def _known_families(inputs: Inputs) -> tuple[int, int]:
 
 def other_method(table: SchemeTable) -> str:
     """Say that the rows of a table of numbers do not follow the report's scheme."""
+    return (
+        f"{_columns_found(table)}, but most rows do not follow the report's scheme: they come from "
+        "another method or model"
+    )
+
+
+def maybe_other_method(table: SchemeTable, name: str) -> str:
+    """Say that the digits of rows do not tell a scheme from a better method."""
+    return (
+        f"{_columns_found(table)}, but they start with a whole step, and the digits do not tell "
+        f"whether that is {name} or another method: print more digits"
+    )
+
+
+def _columns_found(table: SchemeTable) -> str:
+    """Say which columns are taken for a motion."""
     text = table.evaluator.book.is_text
     roles = ("time", "depth", "velocity_initial", "velocity_final")
     shown = [
@@ -167,10 +191,7 @@ def other_method(table: SchemeTable) -> str:
         for role in roles if role in table.lines
     ]  # fmt: skip
     here = "" if text else f" in {table.sheet!r}"
-    return (
-        f"columns of depth and velocity are found{here} ({', '.join(shown)}), but most rows do not "
-        "follow the report's scheme: they come from another method or model"
-    )
+    return f"columns of depth and velocity are found{here} ({', '.join(shown)})"
 
 
 _SAYS = {

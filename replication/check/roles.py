@@ -31,7 +31,10 @@ _MOST_BETA = 1e3
 
 @dataclass(frozen=True)
 class Input:
-    """An input: its value in SI units, its cell, if any, and how it was recognized."""
+    """An input: its value in SI units, its cell, if any, and how it was recognized.
+
+    `error` is the relative error that the digits of the rows admit, where it is solved from these.
+    """
 
     role: str
     si: float
@@ -40,6 +43,7 @@ class Input:
     label: str = ""
     unit: str | None = None
     value: float = math.nan
+    error: float = 0.0
 
 
 @dataclass

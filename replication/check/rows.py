@@ -7,10 +7,12 @@ from statistics import median
 from typing import NamedTuple
 
 from replication.check.fit import TableFit, fit_formulas
+from replication.check.motion import BETTER, told_from_mean
 from replication.check.six import (
     EXACT,
     REPORT,
     VARIANTS,
+    Errors,
     Six,
     Variant,
     end_of_row,
@@ -143,12 +145,15 @@ def fit_numbers(
     ways["depth"] = growth
     if force.centered:
         ways["deceleration"] = VARIANTS["centered"]
-    shares = _share_near(growths, c), _share_near(falls, e), _share_explained(rows, force, e)
+    shares = [_share_near(growths, c), _share_near(falls, e), _share_explained(rows, force, e)]
+    told = told_from_mean(table, growth is VARIANTS["explicit Euler"])
+    if told < -BETTER:
+        shares.append(0.0)
     return TableFit(
         six, time, sign, ways, "deceleration" if shown else end[0],
         bounded=force.bounded, centered=force.centered, digits=_fewest_digits(table), rough=rough,
-        errors=Six(*force.errors, c_error, e_error, V_error), time_error=time_error,
-        followed=min(shares),
+        errors=Errors(*force.errors, c_error, e_error, V_error), time_error=time_error,
+        followed=min(shares), told=told > BETTER,
     )  # fmt: skip
 
 

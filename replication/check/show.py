@@ -22,7 +22,7 @@ from replication.check.shown import (
 )
 from replication.check.table import Line, SchemeTable, cell_name
 from replication.check.taken import report_case, six_in_si
-from replication.check.words import COLUMNS, INPUT_UNITS, is_unit, unit_name
+from replication.check.words import COLUMNS, INPUT_UNITS, as_known, is_unit, unit_name
 from replication.check.workbook import Checked
 from replication.text import columns, quantity, with_unit
 from spreadsheets.evaluate import Evaluator
@@ -167,6 +167,7 @@ def _taken(exam: Examination) -> JsonObject:
             role: {"value": entry.si, "unit": INPUT_UNITS[role],
                    "cell": cell_name(entry.place, True) if entry.place else None,
                    "label": entry.label or None, "by": entry.how,
+                   **({"relative_error": entry.error} if entry.error else {}),
                    **_line_of(table.evaluator.book, entry.place)}
             for role in INPUT_UNITS
             if (entry := exam.inputs.get(role)) is not None
@@ -282,11 +283,17 @@ def _taken_lines(taken: JsonObject, width: int) -> Iterator[str]:
         for name, column in taken["columns"].items()
     ] + [
         (name, safe(entry.get("where", entry["cell"]) or "-", 60),
-         with_unit(f"{entry['value']:.10g}", entry["unit"]),
+         with_unit(f"{_known_digits(entry):.10g}", entry["unit"]),
          _known_by(entry["by"], entry["label"]))
         for name, entry in taken["inputs"].items()
     ]  # fmt: skip
     yield columns([(f"    {name.replace('_', ' ')}", *rest) for name, *rest in entries], width)
+
+
+def _known_digits(entry: JsonObject) -> float:
+    """The value of an input; of one that was solved, as many digits as the rows tell."""
+    value = float(entry["value"])
+    return as_known(value, entry["relative_error"]) if "relative_error" in entry else value
 
 
 _KNOWN_BY = {
@@ -348,7 +355,7 @@ def check_page(record: JsonObject, differences: Sequence[Departure], evaluator: 
         ],
     }
     filters = {"safe": safe, "contents": fault_contents, "unit": written, "quantity": quantity,
-               "known_by": _known_by}  # fmt: skip
+               "known_by": _known_by, "known_digits": _known_digits}  # fmt: skip
     return page.from_template("replication.check", "page.html.j2", parts, filters)
 
 

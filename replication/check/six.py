@@ -110,7 +110,23 @@ class Six(NamedTuple):
         return (self.G * u * u + self.H) * area
 
 
-ROUNDED = Six(EXACT, EXACT, EXACT, EXACT, EXACT, EXACT)
+class Errors(NamedTuple):
+    """The relative errors of six numbers, as far as digits admit them."""
+
+    G: float
+    H: float
+    D: float
+    c: float
+    e: float
+    V: float
+
+    @property
+    def of_force(self) -> float:
+        """That of what follows from the force and the volume of the sphere."""
+        return max(self.G, self.H) + 3 * self.D
+
+
+ROUNDED = Errors(EXACT, EXACT, EXACT, EXACT, EXACT, EXACT)
 """The relative errors of six numbers that formulas give."""
 
 

@@ -5,11 +5,9 @@ import math
 from replication.check.examination import NO_FAULT, Examination
 from replication.check.six import Six, first_speed
 from replication.check.taken import FEW_DIGITS, OTHER_STEP, SAME, report_inputs, six_in_si
-from replication.check.words import title, with_si_unit
+from replication.check.words import as_known, title, with_si_unit
 from spreadsheets.foreign import Position
 
-_MOST_DIGITS = 10
-"""So many digits are shown of a number that was solved."""
 _RATIOS = "the rows tell only the ratios of both densities and the resistance"
 
 
@@ -22,7 +20,7 @@ def tell_solved(exam: Examination) -> None:
     if exam.fitted.probe is not None or any(d.kind not in NO_FAULT for d in exam.differences):
         return
     six, errors = six_in_si(exam), exam.fitted.errors
-    of_force = max(errors.G, errors.H) + 3 * errors.D
+    of_force = errors.of_force
     slack = {"velocity": errors.V, "step": errors.c, "radius": errors.D,
              "target_density": of_force, "resistance": of_force}  # fmt: skip
     for role, error in slack.items():
@@ -32,7 +30,7 @@ def tell_solved(exam: Examination) -> None:
         known = (*report_inputs()[role], *([OTHER_STEP] if role == "step" else []))
         if any(_agree(exam, entry.si, value, error) for value in known):
             continue
-        shown = with_si_unit(_as_known(entry.si, error), role)
+        shown = with_si_unit(as_known(entry.si, error), role)
         printed = " or ".join(with_si_unit(value, role) for value in report_inputs()[role])
         exam.other_inputs.append(f"{title(role)} {shown}")
         text = f"by the rows {title(role)} is {shown}, in the report {printed}"
@@ -46,16 +44,6 @@ def _agree(exam: Examination, value: float, wanted: float, error: float) -> bool
     power = math.log10(value / wanted)
     off = power if exam.firm and exam.firm_speed else power - round(power)
     return abs(off) * math.log(10) <= max(SAME, error)
-
-
-def _as_known(value: float, error: float) -> float:
-    """A number with as many digits as its relative error leaves.
-
-    >>> _as_known(1.0999999999999986e-05, 1e-9), _as_known(449.98765, 1e-3)
-    (1.1e-05, 450.0)
-    """
-    digits = min(_MOST_DIGITS, max(2, math.floor(-math.log10(max(error, 1e-15)))))
-    return float(f"{value:.{digits - 1}e}")
 
 
 def _shown_in(exam: Examination, role: str) -> Position:
@@ -83,7 +71,7 @@ def _tell_ratios(exam: Examination, six: Six, error: float) -> None:
     printed = [(value / particle) for value in report["resistance"]]
     if not (density > 0 and strength > 0):
         return
-    shown = [f"{_as_known(value, error):.10g}" for value in (density, strength)]
+    shown = [f"{as_known(value, error):.10g}" for value in (density, strength)]
     phrase = (
         f"the target density {shown[0]} times the particle density, and the target resistance "
         f"{shown[1]} J/kg times it"

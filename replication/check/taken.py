@@ -21,6 +21,8 @@ SAME = 1e-6
 """Relative difference up to which a number that was solved is one that was typed."""
 FEW_DIGITS = 0.05
 """Rows whose digits admit larger errors do not tell by themselves which case they belong to."""
+_FAR = 3.0
+"""Two steps that differ by so many times what their digits admit are two."""
 _ALIKE = 3
 """So many other inputs must be the report's where one is called a thousand times too large."""
 
@@ -86,8 +88,9 @@ def take_inputs(exam: Examination, inputs: Inputs) -> None:
         ("step", six.c, errors.c), ("velocity", six.V, errors.V), ("radius", six.D / 2, errors.D),
     ):  # fmt: skip
         known = role in exam.inputs or (role == "radius" and "diameter" in exam.inputs)
-        if not known and 0 < value < math.inf and error <= FEW_DIGITS:
-            exam.inputs[role] = Input(role, value, None, "rows")
+        told = 0 < value < math.inf and error <= FEW_DIGITS
+        if not known and told and (role != "step" or _times_agree(exam)):
+            exam.inputs[role] = Input(role, value, None, "rows", error=error)
     if "diameter" in exam.inputs and "radius" not in exam.inputs:
         half = exam.inputs["diameter"].si / 2
         exam.inputs["radius"] = Input("radius", half, None, "follows", "diameter")
@@ -99,6 +102,17 @@ def take_inputs(exam: Examination, inputs: Inputs) -> None:
     if exam.fitted.probe is None:
         _as_in_report(exam, six)
     _solve_rest(exam, six)
+
+
+def _times_agree(exam: Examination) -> bool:
+    """Whether the times, if there are any, grow by the step of the depths, in some unit."""
+    fitted, units = exam.fitted, exam.units
+    if fitted.time is None or not (fitted.time > 0 and fitted.six.c > 0):
+        return True
+    unit = units.get("depth", 0.0) - units.get(start_of_row(exam.table)[0], 0.0)
+    off = math.log10(fitted.time / fitted.six.c) + units.get("time", 0.0) - unit
+    close = max(SAME, _FAR * (fitted.time_error + fitted.errors.c))
+    return abs(off - round(off)) <= math.log10(1 + close)
 
 
 def _in_si(value: float, power: float) -> float:
@@ -174,8 +188,9 @@ def _solve_rest(exam: Examination, six: Six) -> None:
         "particle_density": M / volume, "target_density": 2 * six.G * M / math.pi,
         "resistance": six.H * M / math.pi,
     }  # fmt: skip
+    error = exam.fitted.errors.of_force
     for role, value in solved.items():
-        inputs.setdefault(role, Input(role, value, None, "rows"))
+        inputs.setdefault(role, Input(role, value, None, "rows", error=error))
 
 
 def compare_with_report(exam: Examination, inputs: Inputs) -> None:

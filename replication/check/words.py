@@ -28,6 +28,8 @@ INPUT_UNITS = _WORDS["inputs"]
 """The inputs that a cell beside the table may hold, and their SI units."""
 _MEASURES = {**COLUMNS, **INPUT_UNITS}
 
+_MOST_DIGITS = 10
+"""So many digits are shown of a number that was solved."""
 _MAX_LABEL = 80
 """The most characters of a text that are read."""
 
@@ -250,6 +252,18 @@ def with_si_unit(value: float, role: str) -> str:
     ('1.1e-05 m', '5')
     """
     return with_unit(f"{value:.10g}", _MEASURES[role])
+
+
+def as_known(value: float, error: float) -> float:
+    """Return a number with as many digits as its relative error leaves.
+
+    >>> as_known(1.0999999999999986e-05, 1e-9), as_known(449.98765, 1e-3)
+    (1.1e-05, 450.0)
+    """
+    if not (value and math.isfinite(value)):
+        return value
+    digits = min(_MOST_DIGITS, max(2, math.floor(-math.log10(max(error, 1e-15)))))
+    return float(f"{value:.{digits - 1}e}")
 
 
 def unit_name(role: str, power: int) -> str:

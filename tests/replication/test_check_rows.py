@@ -153,3 +153,46 @@ def test_other_ways_to_count_times_are_clean(
 ) -> None:
     rows = text(with_times(time, dt), 3, (form, ".6f", ".8f"))
     assert faults(rows, tmp_path) == []
+
+
+# ---- other methods, printed with few digits
+
+
+def of_higher_order(dt: float, runge_kutta: bool) -> Rows:
+    """Time, velocity and depth of one moment in each row, by a method of order four or two."""
+    rows, x, v, k = [], 0.0, V, 0
+    while v >= 1:
+        rows.append([k * dt * 1e9, v, x * 1e6])
+        a1 = brake(x, v)
+        if runge_kutta:
+            u2, u3 = v - dt / 2 * a1, 0.0
+            a2 = brake(x + dt / 2 * v, u2)
+            u3 = v - dt / 2 * a2
+            a3 = brake(x + dt / 2 * u2, u3)
+            u4 = v - dt * a3
+            a4 = brake(x + dt * u3, u4)
+            x += dt / 6 * (v + 2 * u2 + 2 * u3 + u4)
+            v -= dt / 6 * (a1 + 2 * a2 + 2 * a3 + a4)
+        else:
+            x += v * dt - a1 * dt * dt / 2
+            v -= a1 * dt
+        k += 1
+    return rows
+
+
+@pytest.mark.parametrize("runge_kutta", [True, False], ids=["Runge-Kutta", "parabolas"])
+@pytest.mark.parametrize("columns", [3, pytest.param(2, marks=pytest.mark.slow)])
+@pytest.mark.parametrize(("dt", "forms"), [
+    (2e-10, (".2f", ".1f", ".2f")), (2e-10, (".2f", ".2f", ".3f")), (5e-10, (".1f", ".1f", ".2f")),
+    (1e-10, (".1f", ".1f", ".2f")), (2e-11, (".2f", ".1f", ".3f")),
+])  # fmt: skip
+def test_better_methods_with_few_digits_are_not_judged(
+    dt: float, forms: tuple[str, ...], columns: int, runge_kutta: bool, tmp_path: Path
+) -> None:
+    rows = of_higher_order(dt, runge_kutta)
+    rows = rows if columns == 3 else [[v, x] for _, v, x in rows]
+    heads = HEADS[3 - columns : 3]
+    lines = [",".join(format(v, f) for v, f in zip(row, forms[3 - columns :], strict=True))
+             for row in rows]  # fmt: skip
+    with pytest.raises(ValueError, match=r"another method|to be a depth"):
+        faults("\n".join([",".join(heads), *lines]) + "\n", tmp_path)
