@@ -165,6 +165,20 @@ def _share_near(ratios: Sequence[tuple[float, float]], middle: float) -> float:
     return sum(off <= most for off, most in close) / len(ratios)
 
 
+def explains_as_well(table: SchemeTable, fitted: TableFit, six: Six, centered: bool) -> bool:
+    """Whether the force of other six numbers explains as many rows as the one fitted to them."""
+    divisor = fitted.sign if "deceleration" in table.lines else fitted.six.e
+    rows = _of_one_scale([row._replace(a=row.a / divisor) for row in _forces(table) if divisor])
+    own, trial = (
+        ForceOfRows(n.G, n.H, n.D, bounded=bounded, centered=middle)
+        for n, bounded, middle in (
+            (fitted.six, fitted.bounded, fitted.centered), (six, True, centered),
+        )
+    )  # fmt: skip
+    shares = [_share_explained(rows, force, fitted.six.e) for force in (trial, own)]
+    return len(rows) >= _FEW and shares[0] >= shares[1]
+
+
 def _share_explained(rows: Sequence[ForceRow], force: ForceOfRows, e: float) -> float:
     """The share of rows that a force explains; 1 if there are few, or if they tell no force."""
     if len(rows) < _FEW or not all(map(math.isfinite, force[:3])):

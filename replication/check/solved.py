@@ -1,10 +1,20 @@
 """Inputs that no cell holds and that rows of numbers give: those that are not the report's."""
 
 import math
+from collections.abc import Sequence
 
 from replication.check.examination import NO_FAULT, Examination
+from replication.check.rows import explains_as_well
 from replication.check.six import Six, first_speed
-from replication.check.taken import FEW_DIGITS, OTHER_STEP, SAME, report_inputs, six_in_si
+from replication.check.taken import (
+    FEW_DIGITS,
+    OTHER_STEP,
+    SAME,
+    report_inputs,
+    report_six,
+    six_in_columns,
+    six_in_si,
+)
 from replication.check.words import as_known, title, with_si_unit
 from spreadsheets.foreign import Position
 
@@ -23,20 +33,53 @@ def tell_solved(exam: Examination) -> None:
     of_force = errors.of_force
     slack = {"velocity": errors.V, "step": errors.c, "radius": errors.D,
              "target_density": of_force, "resistance": of_force}  # fmt: skip
+    of_report = _is_force_of_report(exam, six)
     for role, error in slack.items():
+        if of_report and role not in ("velocity", "step"):
+            continue
         entry = exam.inputs.get(role)
         if entry is None or entry.how != "rows" or error > FEW_DIGITS:
             continue
         known = (*report_inputs()[role], *([OTHER_STEP] if role == "step" else []))
         if any(_agree(exam, entry.si, value, error) for value in known):
             continue
-        shown = with_si_unit(as_known(entry.si, error), role)
+        shown = with_si_unit(_told_apart(entry.si, error, known), role)
         printed = " or ".join(with_si_unit(value, role) for value in report_inputs()[role])
         exam.other_inputs.append(f"{title(role)} {shown}")
         text = f"by the rows {title(role)} is {shown}, in the report {printed}"
         exam.add("other input", [_shown_in(exam, role)], None, text, entry.si)
-    if not exam.inputs.keys() & {"target_density", "resistance"} and of_force <= FEW_DIGITS:
+    if (
+        not exam.inputs.keys() & {"target_density", "resistance"}
+        and of_force <= FEW_DIGITS
+        and not of_report
+    ):
         _tell_ratios(exam, six, of_force)
+
+
+def _is_force_of_report(exam: Examination, six: Six) -> bool:
+    """Whether the report's force explains the rows as well as the one that was fitted to them.
+
+    It may be taken at the middle velocity: with few digits the rows do not tell these two apart,
+    and the force fitted to the one, with rows of the other, has another radius.
+    """
+    return any(
+        explains_as_well(exam.table, exam.fitted, six_in_columns(exam, wanted), centered)
+        for wanted in (report_six(value, six.c) for value in report_inputs()["resistance"])
+        for centered in (False, True)
+    )
+
+
+def _told_apart(value: float, error: float, known: Sequence[float]) -> float:
+    """A number with the digits that its error leaves, or with more, to differ from some others.
+
+    >>> _told_apart(504.1, 5e-3, [500.0]), _told_apart(520.3, 5e-2, [500.0])
+    (504.0, 520.0)
+    """
+    shown = as_known(value, error)
+    while shown in known and error > 1e-10:
+        error /= 10
+        shown = as_known(value, error)
+    return shown
 
 
 def _agree(exam: Examination, value: float, wanted: float, error: float) -> bool:

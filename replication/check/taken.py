@@ -127,9 +127,20 @@ def six_in_si(exam: Examination) -> Six:
 
     Raises AnotherModelError if one of them is beyond the range of doubles.
     """
-    six, X = exam.fitted.six, exam.units.get("depth", 0.0)
-    W = exam.units.get(start_of_row(exam.table)[0], 0.0)
-    A = exam.units.get("deceleration", 2 * W - X)
+    return _converted(exam, exam.fitted.six, 1)
+
+
+def six_in_columns(exam: Examination, six: Six) -> Six:
+    """Six numbers in SI units in those of the columns of a table; errors as in `six_in_si`."""
+    return _converted(exam, six, -1)
+
+
+def _converted(exam: Examination, six: Six, way: int) -> Six:
+    """Six numbers in SI units if `way` is 1, or out of them if it is -1."""
+    X = way * exam.units.get("depth", 0.0)
+    W = way * exam.units.get(start_of_row(exam.table)[0], 0.0)
+    shown = exam.units.get("deceleration")
+    A = 2 * W - X if shown is None else way * shown
     try:
         return Six(
             six.G * 10.0 ** (A - 2 * W - 2 * X), six.H * 10.0 ** (A - 2 * X), six.D * 10.0**X,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.check.show import check_record
+from replication.check.show import check_record, check_text
 from replication.check.workbook import check_workbook
 
 V, R, RHO_P, RHO_T, STRENGTH, DT = 500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10
@@ -22,13 +22,15 @@ def brake(x: float, v: float) -> float:
     return (RHO_T * v * v / 2 + STRENGTH) * math.pi * (2 * R * x - x * x) / M
 
 
-def sheet(dt: float = DT, stop: float = 1.0) -> Rows:
+def sheet(dt: float = DT, stop: float = 1.0, centered: bool = False) -> Rows:
     """Time, velocity at the start, depth and deceleration of the report's rows, row 0 first."""
     rows, x, v, k = [[0.0, V, 0.0, 0.0]], 0.0, V, 0
     while v >= stop:
         k += 1
         x += v * dt if k > 1 else v * dt / 2
         a = brake(x, v)
+        for _ in range(9 if centered else 0):
+            a = brake(x, v - a * dt / 2)
         rows.append([k * dt * 1e9, v, x * 1e6, a])
         v -= a * dt
     return rows
@@ -196,3 +198,31 @@ def test_better_methods_with_few_digits_are_not_judged(
              for row in rows]  # fmt: skip
     with pytest.raises(ValueError, match=r"another method|to be a depth"):
         faults("\n".join([",".join(heads), *lines]) + "\n", tmp_path)
+
+
+# ---- inputs solved from rows
+
+
+@pytest.mark.parametrize("digits", [1, 2, 3])
+def test_rows_that_the_report_s_force_explains_have_no_other_input(
+    digits: int, tmp_path: Path
+) -> None:
+    path = tmp_path / "mine.csv"
+    path.write_text(text(sheet(centered=True), 3, (".2f", f".{digits}f", f".{digits + 1}f")))
+    record = check_record(check_workbook(path))
+    assert (record["summary"].get("other input"), "other inputs" in record["verdict"]) == (
+        None,
+        False,
+    )
+    assert "do not tell whether all inputs are the report's" in record["verdict"]
+
+
+def test_an_input_is_shown_to_the_digits_that_the_rows_tell(tmp_path: Path) -> None:
+    path = tmp_path / "mine.csv"
+    path.write_text(text(sheet(centered=True), 3, (".2f", ".3f", ".4f")))
+    record = check_record(check_workbook(path))
+    radius = record["taken"][0]["inputs"]["radius"]
+    assert abs(radius["value"] / R - 1) < 0.05
+    assert radius["relative_error"] > 1e-3
+    (line,) = (line for line in check_text(record).splitlines() if "    radius" in line)
+    assert len(line.split()[2]) <= len("1.06e-05")
