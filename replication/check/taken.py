@@ -9,12 +9,16 @@ from replication.check.examination import AnotherModelError, Examination, near
 from replication.check.fit import TableFit
 from replication.check.roles import Input, Inputs
 from replication.check.six import Six, start_of_row
-from replication.check.words import INPUT_UNITS, digits_of, times_too, title, with_si_unit
+from replication.check.words import INPUT_UNITS, as_known, digits_of, times_too, title, with_si_unit
 
 OTHER_STEP = 5e-10
 """The report's second time step [s]; the first one is among its printed inputs."""
 _NO_BETA = 1e3
 """No beta is so large; a flow stress in Pa is larger."""
+_FULL = 15
+"""A number with so many digits is not rounded."""
+_MASS_DIGITS = 4
+"""So many digits are shown of a mass that is expected."""
 _DIGITS = 3
 """A mass is typed with so many digits at least."""
 SAME = 1e-6
@@ -211,6 +215,7 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
     """
     report = report_inputs()
     _swapped_labels(exam)
+    _mass_of_rows(exam)
     typed = [
         role for role, entry in exam.inputs.items()
         if entry.place and role in report and role != "stop_velocity"
@@ -238,6 +243,34 @@ def compare_with_report(exam: Examination, inputs: Inputs) -> None:
         exam.other_inputs.append(f"{title(role)} {with_si_unit(entry.si, role)}")
         text = f"{title(role)} is {with_si_unit(entry.si, role)}, in the report {shown}"
         exam.add("other input", [entry.place], None, text)
+
+
+def _mass_of_rows(exam: Examination) -> None:
+    """Report a mass beside rows without formulas that is not 4/3 pi R^3 rho_p.
+
+    Rows tell no mass. If they are those of a case of the report, it is that of the radius and the
+    particle density of this case, to its own digits.
+    """
+    mass = exam.inputs.get("mass")
+    radius, density = (exam.inputs.get(role) for role in ("radius", "particle_density"))
+    if mass is None or mass.place is None or radius is None or density is None:
+        return
+    if exam.fitted.probe is not None or density.how != "report":
+        return
+    wanted = mass_of(radius.si, density.si)
+    digits, last = digits_of(mass.value)
+    cut = 10.0**last if digits < _FULL else 0.0  # some cut digits off instead of rounding
+    if abs(mass.value - wanted * mass.value / mass.si) <= cut + SAME * abs(mass.value):
+        return
+    shown = with_si_unit(as_known(wanted, 10.0**-_MASS_DIGITS), "mass")
+    off = _input_power_off(mass, wanted)
+    wrong = f"{times_too(off)}, and so " if off else ""
+    text = (
+        f"{title('mass')} is {wrong}not the {shown} of 4/3 pi R^3 rho_p with the radius "
+        f"{with_si_unit(radius.si, 'radius')} and the particle density "
+        f"{with_si_unit(density.si, 'particle_density')}, with which the rows agree"
+    )
+    exam.add("unit" if off else "typed number", [mass.place], wanted * mass.value / mass.si, text)
 
 
 _PARTS = {
