@@ -263,8 +263,8 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
     """Report rows that end before the stop.
 
     With other inputs, or the other beta, the rows prepared for the former inputs run out, and an
-    excerpt has few rows; a single row may be left out. But other rows of the report's case that end
-    shortly before the stop were ended at another velocity.
+    excerpt has few rows; a single row may be left out. But other formulas of the report's case that
+    end shortly before the stop were ended at another velocity. Numbers may be cut anywhere.
     """
     table, six = exam.table, exam.intended
     assert six is not None
@@ -279,8 +279,11 @@ def _ends_early(exam: Examination, speeds: Mapping[int, float], stop: float, ste
     faults = [d for d in exam.differences if d.kind not in NO_FAULT or d.kind == "other input"]
     is_report = stop == STOP_VELOCITY and report_case(six, exam.fitted) is not None
     column = end_of_row(table)[0]
-    exam.cut_short = is_report and not faults and not prepared and 2 * table.steps < steps
-    if is_report and not faults and not prepared and steps // 2 <= table.steps < steps - 1:
+    complete = is_report and not faults and not prepared
+    in_numbers = exam.fitted.probe is None
+    early = table.steps < steps - 1 if in_numbers else 2 * table.steps < steps
+    exam.cut_short = complete and early
+    if complete and not in_numbers and steps // 2 <= table.steps < steps - 1:
         exam.add("other scheme", [table.place(column, table.steps)], None, f"{OTHER_STOP}: {text}")
         exam.ends = True
     else:

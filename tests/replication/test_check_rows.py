@@ -226,3 +226,33 @@ def test_an_input_is_shown_to_the_digits_that_the_rows_tell(tmp_path: Path) -> N
     assert radius["relative_error"] > 1e-3
     (line,) = (line for line in check_text(record).splitlines() if "    radius" in line)
     assert len(line.split()[2]) <= len("1.06e-05")
+
+
+# ---- a stated mass
+
+
+@pytest.mark.parametrize("stated", ["mass [kg],4.96e-10", "mass [kg],5.3e-11", "mass [ng],4.96"])
+def test_a_mass_that_is_not_that_of_the_rows_is_named(stated: str, tmp_path: Path) -> None:
+    ((line, _, expected),) = faults(text(sheet(), 4, above=f"{stated}\n"), tmp_path)
+    unit = 1e12 if "ng" in stated else 1.0
+    assert (line, expected) == (1, pytest.approx(M * unit))
+
+
+@pytest.mark.parametrize("stated", ["mass [kg],4.96e-11", "mass [kg],5e-11", "mass [ng],49.62"])
+def test_a_mass_that_is_that_of_the_rows_to_its_digits_is_clean(
+    stated: str, tmp_path: Path
+) -> None:
+    assert faults(text(sheet(), 4, above=f"{stated}\n"), tmp_path) == []
+
+
+# ---- excerpts, and rows that are missing
+
+
+@pytest.mark.parametrize("last", [10, 60, 90, 129])
+def test_rows_that_end_early_are_no_fault_wherever_they_end(last: int, tmp_path: Path) -> None:
+    path = tmp_path / "mine.csv"
+    path.write_text(text(sheet()[: last + 1], 4, (".1f", ".9f", ".10f", ".12e")))
+    record = check_record(check_workbook(path))
+    assert (record["clean"], record["final_depths"][0]["found"]) == (True, None)
+    assert record["summary"] == {"not calculated": 1}
+    assert "as far as it goes" in record["verdict"]
