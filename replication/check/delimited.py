@@ -17,6 +17,7 @@ from pathlib import Path
 from replication.check.words import is_unit
 from replication.columns import csv_rows
 from replication.user_input import place as named
+from spreadsheets.evaluate import column_letters
 from spreadsheets.foreign import (
     MAX_CELLS,
     MAX_FILE,
@@ -64,6 +65,13 @@ def read_any(path: Path) -> Book:
 def where(book: Book, place: Position) -> str:
     """Where a cell of a text file stands."""
     return f"line {place[1]}, {column_at(book, place[2])}"
+
+
+def line_named(book: Book, index: int, across: bool = False) -> str:
+    """A line of a text file by its number, or a row (`across`: a column) of a sheet."""
+    if book.is_text:
+        return f"line {index}"
+    return f"column {column_letters(index)}" if across else f"row {index}"
 
 
 def column_at(book: Book, column: int) -> str:

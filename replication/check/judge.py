@@ -11,6 +11,7 @@ from replication.check.ends import first_rows, judge_stop
 from replication.check.examination import AnotherModelError, Examination, near
 from replication.check.excerpt import judge_excerpt
 from replication.check.fit import TableFit, is_part
+from replication.check.gaps import judge_gaps
 from replication.check.impact_row import judge_impact
 from replication.check.model import blank_inputs, refuse_other_model, zero_of_blank
 from replication.check.responses import CLOSE, Item, unit_power
@@ -97,6 +98,7 @@ def examine(
         first_rows(exam, inputs, idle)
         odd_cells(exam, inputs)
         judge_impact(exam)
+        judge_gaps(exam)
     judge_stop(exam, idle)
     tell_solved(exam)
     exam.differences.sort(key=lambda d: d.rank)

@@ -52,18 +52,19 @@ def told_from_mean(table: SchemeTable, by_row_before: bool) -> float:
 
 
 def _rows(table: SchemeTable) -> list[_Row]:
-    """The rows from the second step on, up to the first one that lacks a number."""
+    """The rows from the second step on: most of those without one between that lacks a number."""
     role, lag = start_of_row(table)
-    rows = []
+    stretches: list[list[_Row]] = [[]]
     for k in range(max(2, min(table.rows) + 1), table.steps + 1):
         numbers = (
             table.number("depth", k), table.number(role, k + lag), table.number(role, k - 1 + lag),
         )  # fmt: skip
-        if None in numbers:
-            break
         x, u, before = numbers
-        rows.append(_Row(k, x or 0.0, u or 0.0, before or 0.0))
-    return rows
+        if x is None or u is None or before is None:
+            stretches.append([])
+        else:
+            stretches[-1].append(_Row(k, x, u, before))
+    return max(stretches, key=len)
 
 
 def _followed(

@@ -7,6 +7,7 @@ from statistics import median
 from typing import NamedTuple
 
 from replication.check.fit import TableFit, fit_formulas
+from replication.check.gaps import renumbered
 from replication.check.motion import BETTER, told_from_mean
 from replication.check.six import (
     EXACT,
@@ -75,7 +76,7 @@ def fit_table(table: SchemeTable) -> tuple[SchemeTable, TableFit]:
     """
     fitted = fit_formulas(table)
     if fitted is None:
-        return _fit_numbers_either_way(table)
+        return _fit_numbers_either_way(renumbered(table))
     for trial in _with_rarer_formulas(table) if fitted.odd else ():
         again = fit_formulas(trial)
         if again is not None and again.probe is not None and not again.odd:

@@ -227,7 +227,8 @@ class SchemeTable:
     """A table of the scheme: its lines by role, other lines beside them, and its rows.
 
     `rows` gives the index of each row by its number: row 0 is the impact, row 1 the first step.
-    Row 0 need not be shown. `whole`: its first rows are there; a part of a table starts later.
+    Row 0 need not be shown, nor one that is left out. `whole`: its first rows are there; a part of
+    a table starts later. `repeated` are the indices of rows that stand twice and have no number.
     """
 
     evaluator: Evaluator
@@ -237,12 +238,16 @@ class SchemeTable:
     helpers: tuple[Line, ...]
     rows: Mapping[int, int]
     whole: bool = True
+    repeated: tuple[int, ...] = ()
     places: dict[Position, tuple[str, int]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         for role, line in self.lines.items():
             for k, index in self.rows.items():
                 self.places[line.place(index)] = role, k
+            for index in self.repeated:
+                same = max((k for k, own in self.rows.items() if own < index), default=0)
+                self.places[line.place(index)] = role, same
 
     @property
     def steps(self) -> int:

@@ -256,3 +256,42 @@ def test_rows_that_end_early_are_no_fault_wherever_they_end(last: int, tmp_path:
     assert (record["clean"], record["final_depths"][0]["found"]) == (True, None)
     assert record["summary"] == {"not calculated": 1}
     assert "as far as it goes" in record["verdict"]
+
+
+@pytest.mark.parametrize("columns", [3, 4])
+@pytest.mark.parametrize("form", [".4f", ".9f"])
+@pytest.mark.parametrize(("gone", "says"), [
+    ([50], "a row is missing after line 51"), ([120, 121], "2 rows are missing after line 121"),
+])  # fmt: skip
+def test_rows_that_are_left_out_are_named(
+    gone: list[int], says: str, form: str, columns: int, tmp_path: Path
+) -> None:
+    rows = [row for k, row in enumerate(sheet()) if k not in gone]
+    path = tmp_path / "mine.csv"
+    path.write_text(text(rows, columns, (".1f", form, form, ".7e")))
+    record = check_record(check_workbook(path))
+    faulty = [d for d in record["differences"] if d["kind"] != "not calculated"]
+    assert [(d["where"].split(",")[0], d["explanation"]) for d in faulty] == [
+        (f"line {gone[0] + 2}", says)
+    ]
+    assert record["taken"][0]["steps"] == 131
+    assert "ends at the right depth" in record["verdict"]
+
+
+@pytest.mark.parametrize("columns", [3, 4])
+@pytest.mark.parametrize("k", [1, 50, 131])
+def test_a_row_that_stands_twice_is_named(k: int, columns: int, tmp_path: Path) -> None:
+    rows = sheet()
+    path = tmp_path / "mine.csv"
+    path.write_text(text([*rows[: k + 1], *rows[k:]], columns))
+    record = check_record(check_workbook(path))
+    assert [d["explanation"] for d in record["differences"]] == [
+        f"a row stands twice (line {k + 3})"
+    ]
+    assert record["taken"][0]["steps"] == 131
+
+
+def test_a_row_that_is_blank_is_left_out_openly(tmp_path: Path) -> None:
+    lines = text(sheet(), 4).splitlines()
+    lines[51] = ""
+    assert faults("\n".join(lines), tmp_path) == []
