@@ -96,8 +96,8 @@ class Book:
     cells. `notes` tell the user what is left out. Stored numbers are exact to within `resolution`.
     `hidden` has the hidden rows of each sheet. `date1904`: day 0 of its dates is 1 January 1904.
     `as_displayed`: its numbers are rounded as they are shown. Of a text file `heads` has the head
-    of each column, and `digits` how each number is printed: its number of digits, and the power of
-    ten of the last one.
+    of each column, `top` is the line of the highest one, and `digits` has how each number is
+    printed: its number of digits, and the power of ten of the last one.
     """
 
     path: Path
@@ -111,6 +111,7 @@ class Book:
     as_displayed: bool = False
     digits: Mapping[str, Mapping[tuple[int, int], tuple[int, int]]] = field(default_factory=dict)
     heads: Mapping[int, str] | None = None
+    top: int = 0
 
     @property
     def is_text(self) -> bool:

@@ -3,7 +3,8 @@
 Row and column of a cell are the line of the file and the column in it. Separators are commas,
 semicolons, tabs or blanks, whichever gives most lines that are nothing but numbers; decimal marks
 are points or commas. Lines that begin with a mark of comments are skipped, but for heads right
-above the numbers. The digits of each number are kept as they are printed: they are its uncertainty.
+above the numbers, and for inputs such as "R = 11 um" above these. The digits of each number are
+kept as they are printed: they are its uncertainty.
 """
 
 import csv
@@ -14,7 +15,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 
-from replication.check.words import is_unit
+from replication.check.words import input_roles, is_unit
 from replication.columns import csv_rows
 from replication.user_input import place as named
 from spreadsheets.evaluate import column_letters
@@ -41,6 +42,10 @@ _GROUPED = re.compile(r"[-+]?\d{1,3}(?:(?P<mark>[.,])\d{3})(?:(?P=mark)\d{3})*(?
 """A number with marks of thousands, and another mark before its decimals."""
 _HEAD = re.compile(r"[^\s\[(]+\s*(?:\[[^\]]*\]|\([^)]*\))?")
 """A head among others that blanks separate: a name and maybe a unit in brackets."""
+_STATED = re.compile(
+    r"(?P<name>[^=:]{1,60}?)\s*[=:]\s*(?P<number>[-+.,\d][^\s]*)\s*(?P<unit>.{0,20})"
+)
+"""A quantity that a line states: its name, its number, and maybe its unit."""
 _LEAST = 4
 """The fewest rows of numbers."""
 
@@ -63,7 +68,9 @@ def read_any(path: Path) -> Book:
 
 
 def where(book: Book, place: Position) -> str:
-    """Where a cell of a text file stands."""
+    """Where a cell of a text file stands; above the table it belongs to no column."""
+    if place[1] < book.top:
+        return f"line {place[1]}, cell {place[2]}"
     return f"line {place[1]}, {column_at(book, place[2])}"
 
 
@@ -106,6 +113,7 @@ def _book(path: Path, text: str) -> Book:
     width = Counter(len(rows[line]) for line in numeric).most_common(1)[0][0]
     first = next(line for line in numeric if len(rows[line]) == width)
     _add_heads(rows, lines, first, width, separator)
+    notes = tuple(_take_stated(rows, lines, first))
     cells: dict[tuple[int, int], StoredCell] = {}
     digits: dict[tuple[int, int], tuple[int, int]] = {}
     for line, texts in rows.items():
@@ -120,9 +128,13 @@ def _book(path: Path, text: str) -> Book:
             cells[line, column] = StoredCell(None, value)
         if len(cells) > MAX_CELLS:
             raise ValueError(f"holds more than {MAX_CELLS:,} numbers")
-    heads = {column: head for column in range(1, width + 1)
-             if (head := _head_above(cells, first, column))}  # fmt: skip
-    return Book(path, {path.stem: cells}, {}, digits={path.stem: digits}, heads=heads)
+    above = {c: found for c in range(1, width + 1) if (found := _head_above(cells, first, c))}
+    heads, top = dict[int, str](), first
+    for column, (line, text) in above.items():
+        heads[column], top = text, min(top, line)
+    return Book(
+        path, {path.stem: cells}, {}, notes, digits={path.stem: digits}, heads=heads, top=top
+    )
 
 
 # ---- lines and cells
@@ -247,13 +259,37 @@ def _counts(values: Sequence[float | None]) -> bool:
     return all(b - a == 1 for a, b in pairwise(known))
 
 
-def _head_above(cells: Mapping[tuple[int, int], StoredCell], first: int, column: int) -> str:
-    """The farthest text right above the numbers of a column; a unit may stand below it."""
-    texts = []
+def _head_above(
+    cells: Mapping[tuple[int, int], StoredCell], first: int, column: int
+) -> tuple[int, str] | None:
+    """The nearest text right above the numbers of a column that is no unit, with its line."""
+    begun = False
     for line in range(first - 1, max(0, first - 6), -1):
         cell = cells.get((line, column))
         if cell is not None and isinstance(cell.value, str):
-            texts.append(cell.value)
-        elif texts:
+            begun = True
+            if not is_unit(cell.value):
+                return line, cell.value
+        elif begun:
             break
-    return next((text for text in texts if not is_unit(text)), "")
+    return None
+
+
+# ---- inputs that lines above the table state
+
+
+def _take_stated(rows: _Rows, lines: Sequence[str], first: int) -> Iterator[str]:
+    """Put inputs such as "R = 11 um", also in comments, into cells; tell of what is not read.
+
+    A line becomes cells of names, numbers and units.
+    """
+    for line in range(1, first):
+        bare = lines[line - 1].strip().lstrip("#%/").strip()
+        stated = [_STATED.fullmatch(part.strip()) for part in re.split(r"[;,]\s+", bare)]
+        if not all(match and _cell_number(match["number"]) is not None for match in stated):
+            continue
+        parts = [(m["name"], m["number"], m["unit"].strip(" []()")) for m in stated if m]
+        if all(input_roles(name, is_unit(unit)) for name, _, unit in parts):
+            rows[line] = [text for part in parts for text in part]
+        elif line not in rows or len(rows[line]) == 1:
+            yield f"line {line} is not read: {bare}"

@@ -275,8 +275,7 @@ def _taken_lines(taken: JsonObject, width: int) -> Iterator[str]:
     """What was taken for what in a table, as lines."""
     scheme = taken["scheme"]
     named = "the report's scheme" if scheme == "the report's" else f"another scheme, {scheme}"
-    sheet = repr(safe(taken["sheet"], 40))
-    yield f"  sheet {sheet}: {taken['steps']} steps {taken['direction']}, {named}"
+    yield f"  {_table_named(taken)}: {taken['steps']} steps {taken['direction']}, {named}"
     entries = [
         (name, safe(column.get("where", column["cells"]), 60), f"in {column['unit']}",
          _known_by(column["by"], column["head"]))
@@ -284,7 +283,7 @@ def _taken_lines(taken: JsonObject, width: int) -> Iterator[str]:
     ] + [
         (name, safe(entry.get("where", entry["cell"]) or "-", 60),
          with_unit(f"{_known_digits(entry):.10g}", entry["unit"]),
-         _known_by(entry["by"], entry["label"]))
+         _input_known_by(entry))
         for name, entry in taken["inputs"].items()
     ]  # fmt: skip
     yield columns([(f"    {name.replace('_', ' ')}", *rest) for name, *rest in entries], width)
@@ -296,15 +295,37 @@ def _known_digits(entry: JsonObject) -> float:
     return as_known(value, entry["relative_error"]) if "relative_error" in entry else value
 
 
+def _table_named(taken: JsonObject) -> str:
+    """Where a table stands: on a sheet, or in a text file."""
+    in_text = any("where" in column for column in taken["columns"].values())
+    return "the file" if in_text else f"sheet {safe(taken['sheet'], 40)!r}"
+
+
+_WRITTEN = {"typed number": "wrong number", "odd formula": "contradiction"}
+"""How kinds are called in what a program wrote: it types nothing, and has no formulas."""
+
+
+def kind_shown(difference: JsonObject) -> str:
+    """The kind of a difference for a person."""
+    kind = str(difference["kind"])
+    return _WRITTEN.get(kind, kind) if "where" in difference else kind
+
+
 _KNOWN_BY = {
-    "rows": "in no cell; solved back from the rows",
-    "report": "in no cell; the report's, with which the rows agree",
+    "rows": "stated nowhere; solved back from the rows",
+    "report": "stated nowhere; the report's, with which the rows agree",
     "formulas": "in no cell; typed into the formulas",
     "values": "by its values",
     "response": "by its response",
     "unread": "by its label; no formula of the table reads it",
     "--map": "as --map says",
 }
+
+
+def _input_known_by(entry: JsonObject) -> str:
+    """Say how an input was recognized; nothing in a text file reads a cell."""
+    how = "label" if entry["by"] == "unread" and "where" in entry else entry["by"]
+    return _known_by(how, entry["label"])
 
 
 def _known_by(how: str, label: str) -> str:
@@ -315,7 +336,7 @@ def _known_by(how: str, label: str) -> str:
 
 
 def _told_difference(difference: JsonObject) -> Iterator[str]:
-    yield f"  {whereabouts(difference)}, {difference['kind']}"
+    yield f"  {whereabouts(difference)}, {kind_shown(difference)}"
     if line := fault_contents(difference):
         yield f"    {line}"
     yield wrapped(safe(difference["explanation"], 400), "    ")
@@ -355,7 +376,9 @@ def check_page(record: JsonObject, differences: Sequence[Departure], evaluator: 
         ],
     }
     filters = {"safe": safe, "contents": fault_contents, "unit": written, "quantity": quantity,
-               "known_by": _known_by, "known_digits": _known_digits}  # fmt: skip
+               "known_by": _known_by, "input_known_by": _input_known_by,
+               "known_digits": _known_digits, "kind": kind_shown,
+               "table_named": _table_named}  # fmt: skip
     return page.from_template("replication.check", "page.html.j2", parts, filters)
 
 

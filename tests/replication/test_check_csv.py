@@ -348,5 +348,5 @@ def test_text_and_json_name_lines_and_cells(tmp_path: Path) -> None:
     path.write_text(csv(rows, SHORT))
     record = check_record(check_workbook(path))
     assert (record["first"]["sheet"], record["first"]["cell"]) == ("mine", "C42")
-    assert "  line 42, column 'depth [um]', typed number" in check_text(record)
+    assert "  line 42, column 'depth [um]', wrong number" in check_text(record)
     assert "column 'velocity [m/s]', lines 2 to 133" in check_text(record)

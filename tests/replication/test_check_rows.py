@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from replication.check.show import check_record, check_text
+from replication.check.show import check_page, check_record, check_text
 from replication.check.workbook import check_workbook
 
 V, R, RHO_P, RHO_T, STRENGTH, DT = 500.0, 11e-6, 8900.0, 7850.0, 3.5e9, 2e-10
@@ -295,3 +295,43 @@ def test_a_row_that_is_blank_is_left_out_openly(tmp_path: Path) -> None:
     lines = text(sheet(), 4).splitlines()
     lines[51] = ""
     assert faults("\n".join(lines), tmp_path) == []
+
+
+# ---- what stands above the table, and words
+
+
+STATED = "# R = 11 um\n# rho_p = 8900 kg/m3; rho_t = {} kg/m3\n# beta: 5, Y: 700 MPa\n"
+
+
+@pytest.mark.parametrize(("density", "expected"), [(7850, []), (7580, [HEADS[3]])])
+def test_inputs_that_comments_state_are_read(
+    density: int, expected: list[str], tmp_path: Path
+) -> None:
+    content = text(sheet(), 4, above=STATED.format(density))
+    assert [head for _, head, _ in faults(content, tmp_path)] == expected
+    inputs = check_record(check_workbook(tmp_path / "mine.csv"))["taken"][0]["inputs"]
+    assert {name: inputs[name]["where"] for name in ("radius", "target_density", "beta")} == {
+        "radius": "line 1, cell 2", "target_density": "line 2, cell 5", "beta": "line 3, cell 2"
+    }  # fmt: skip
+
+
+def test_what_is_not_read_above_the_table_is_said(tmp_path: Path) -> None:
+    path = tmp_path / "mine.csv"
+    path.write_text(text(sheet(), above="# my impact\n# drag coefficient = 0.5\n"))
+    record = check_record(check_workbook(path))
+    assert (record["clean"], record["notes"]) == (
+        True, ["line 2 is not read: drag coefficient = 0.5"]
+    )  # fmt: skip
+
+
+def test_the_text_speaks_of_a_file_and_not_of_cells(tmp_path: Path) -> None:
+    path = tmp_path / "mine.csv"
+    path.write_text(text(changed(sheet(), 40, 2, 3.8), above="radius [um],11\n"))
+    checked = check_workbook(path)
+    record = check_record(checked)
+    shown = check_text(record)
+    page = check_page(record, checked.differences, checked.evaluator)
+    assert "<h3>The file: 131 steps" in page
+    assert "line 43, column 'depth [um]', wrong number" in shown
+    assert "line 1, cell 2" in shown
+    assert [word for word in ("sheet 'mine'", "no cell", "typed", "formula") if word in shown] == []
