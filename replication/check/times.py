@@ -6,7 +6,7 @@ are printed, each time is known to half a unit of its last digit, without the ti
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from statistics import median
 from typing import NamedTuple
@@ -16,6 +16,8 @@ from replication.check.six import start_of_row
 
 _SINGLE = 2.0**-24
 """The relative rounding error of single precision, in which some programs add up times."""
+_DOUBLE = 1e-15
+"""The relative error of doubles, generously."""
 _SAME = 1e-9
 """Relative difference up to which times of full precision are the same."""
 _LEAST_ROWS = 6
@@ -32,12 +34,15 @@ Numbers = Mapping[int, float]
 
 
 class Steps(NamedTuple):
-    """Equal steps of times, and the time of row 0 by them.
+    """Equal steps of times, the error that the digits admit, and the time of row 0 by them.
 
-    The origin is None where the step has more digits than the times, which are then rounded.
+    `near` is how far from their row times may be that count as known. The origin is None where the
+    step has more digits than the times, which are then rounded.
     """
 
     step: float
+    error: float
+    near: float
     origin: float | None
 
 
@@ -69,7 +74,7 @@ def judge_times(exam: Examination) -> bool:
             way = "large" if off > 0 else "small"
             text += f": all times from here on are too {way} by {abs(off):.6g}"
         exam.add("typed number", [table.place("time", wrong.k)], wrong.expected, text)
-    _compare_steps(exam, steps.step, 2 * usual / len(times))
+    _compare_steps(exam, steps.step, max(steps.error, 2 * usual / len(times)))
     return True
 
 
@@ -91,40 +96,36 @@ def _compare_steps(exam: Examination, step: float, error: float) -> None:
 def equal_steps(times: Numbers, errors: Numbers) -> Steps | None:
     """The steps of most times, whose `errors` are what their digits admit; None if they have none.
 
-    >>> equal_steps({k: round(k / 5, 1) for k in range(20)}, dict.fromkeys(range(20), 0.05))
-    Steps(step=0.2, origin=0.0)
+    >>> steps = equal_steps({k: round(k / 5, 1) for k in range(20)}, dict.fromkeys(range(20), 0.05))
+    >>> steps.step, steps.origin
+    (0.2, 0.0)
     """
     if len(times) < _LEAST_ROWS:
         return None
-    rounding = median(errors.values())
-    same = _PART * rounding + _SAME * max(map(abs, times.values()))
-    steps = list(_likely_steps(times, rounding))
-    for step in steps:
+    rows, rounding = sorted(times), median(errors.values())
+    same = _PART * rounding + _DOUBLE * max(map(abs, times.values()))
+    far = max(1, len(rows) // 4)
+    middle = median((times[b] - times[a]) / (b - a) for a, b in zip(rows, rows[far:], strict=False))
+    for step in (_most_frequent(times, rounding), middle):
         origins = {k: round((t - k * step) / same) for k, t in times.items()}
         origin, count = Counter(origins.values()).most_common(1)[0]
         if count > _MOST * len(times):
             most = [times[k] - k * step for k, rest in origins.items() if rest == origin]
-            return Steps(step, median(most))
-    best, most_pairs = None, 0
-    for step in steps:
-        pairs = sum(
-            abs(times[b] - times[a] - (b - a) * step) <= errors[a] + errors[b] + same
-            for a, b in pairwise(sorted(times))
-        )
-        if pairs >= max(most_pairs, _MOST * len(times)):
-            best, most_pairs = Steps(step, None), pairs
-    return best
+            return Steps(step, 2 * same / len(most), same, median(most))
+    pairs = sum(
+        abs(times[b] - times[a] - (b - a) * middle) <= errors[a] + errors[b] + same
+        for a, b in pairwise(rows)
+    )
+    if pairs <= _MOST * len(times):
+        return None
+    return Steps(middle, 2 * rounding / far, same, None)
 
 
-def _likely_steps(times: Numbers, rounding: float) -> Iterator[float]:
-    """Steps that times may have: the most frequent one, and the middle one over many rows."""
-    rows = sorted(times)
+def _most_frequent(times: Numbers, rounding: float) -> float:
+    """The step that most neighbouring times show."""
     digits = 2 - math.floor(math.log10(rounding)) if rounding > 0 else 15
-    yield Counter(
-        round((times[b] - times[a]) / (b - a), digits) for a, b in pairwise(rows)
-    ).most_common(1)[0][0]
-    far = zip(rows, rows[len(rows) // 4 :], strict=False)
-    yield median((times[b] - times[a]) / (b - a) for a, b in far if b > a)
+    steps = ((times[b] - times[a]) / (b - a) for a, b in pairwise(sorted(times)))
+    return Counter(round(step, digits) for step in steps).most_common(1)[0][0]
 
 
 def wrong_times(times: Numbers, errors: Numbers, steps: Steps) -> list[WrongTime]:
@@ -168,7 +169,8 @@ class _Walk(NamedTuple):
     def slack(self, last: int, k: int) -> float:
         """What the digits admit for that; of times on a known line only those of row k."""
         own = self.errors[k] + (self.errors[last] if self.steps.origin is None else 0.0)
-        return own * (1 + _PART) + _SAME * max(abs(self.times[k]), abs(self.times[last]))
+        own += abs(k - last) * self.steps.error + self.steps.near
+        return own + _SAME * max(abs(self.times[k]), abs(self.times[last]))
 
     def follows(self, last: int, k: int) -> bool:
         """Whether the time of a row follows from that of another one."""
