@@ -581,6 +581,9 @@ def _spread(exam: Examination, line: Line, expected: float) -> float:
         depth = table.lines["depth"]
         deepest = max(map(abs, depth.values.values()))
         spread += 4 * max(map(abs, line.values.values())) * depth.rounding(deepest) / deepest
+        six = exam.fitted.six
+        steepest = abs(six.G * six.V**2 + six.H) * abs(six.D)  # at the surface
+        spread = max(spread, 2 * steepest * depth.rounding(deepest) if steepest > 0 else 0.0)
     return spread
 
 

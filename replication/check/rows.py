@@ -20,7 +20,11 @@ from replication.check.six import (
     impact_velocity,
     start_of_row,
 )
-from replication.check.table import SchemeTable, with_only_velocity_at_start
+from replication.check.table import (
+    SchemeTable,
+    with_only_velocity_at_end,
+    with_only_velocity_at_start,
+)
 
 _ENOUGH = 20
 """So many digits in all rows together tell the three numbers of a force."""
@@ -28,6 +32,8 @@ _FAR = 3.0
 """A row whose deviation is so many times what its digits admit is not explained."""
 MOST = 0.5
 """A larger share of rows is most of them."""
+_TOLD = 0.1
+"""Rows that do not tell the diameter to this part of itself do not tell another way."""
 _FEW = 6
 """Of fewer rows it cannot be said that most follow another method."""
 _FIRST_ROWS = 6
@@ -101,6 +107,7 @@ def _fit_numbers_either_way(table: SchemeTable) -> tuple[SchemeTable, TableFit]:
     If the depth grows by the velocity in the row before, this is the one at the end of that row in
     the report's scheme. In explicit Euler it is the one at its start: only the force tells.
     """
+    table = _with_velocity_told(table)
     plain = fit_numbers(table, only_report=True)
     if plain.followed == 1:
         return table, plain
@@ -114,6 +121,17 @@ def _fit_numbers_either_way(table: SchemeTable) -> tuple[SchemeTable, TableFit]:
     if euler.followed > max(MOST, plain.followed):
         return trial, fit_numbers(trial, way)
     return table, fit_numbers(table)
+
+
+def _with_velocity_told(table: SchemeTable) -> SchemeTable:
+    """The table with its only velocity at the end of the rows, if sums of many rows tell that.
+
+    Single rows of few digits may fit both ways.
+    """
+    trial = with_only_velocity_at_end(table)
+    if trial is None or told_from_mean(table, by_row_before=True) <= BETTER:
+        return table
+    return table if told_from_mean(table, by_row_before=False) > BETTER else trial
 
 
 def fit_numbers(
@@ -309,7 +327,8 @@ def _best_force(rows: Sequence[ForceRow], e: float) -> ForceOfRows:
         middle = [row._replace(u=row.u - e / 2 * central.at(row.x, row.u)) for row in some]
         central = _fitted_force(middle)
     others.append((_explained(middle, central), central._replace(centered=True)))
-    count, best = max(others, key=lambda entry: entry[0])
+    others = [entry for entry in others if entry[1].errors[2] <= _TOLD]
+    count, best = max(others, key=lambda entry: entry[0], default=(0, force))
     better = count >= explained + 3 and count > len(rows) / 2
     return best if better else force
 

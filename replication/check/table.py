@@ -931,10 +931,22 @@ def with_only_velocity_at_start(table: SchemeTable) -> SchemeTable | None:
     """
     if "velocity_initial" in table.lines:
         return None
-    roles = {"depth": table.lines["depth"], "velocity_initial": table.lines["velocity_final"]}
+    return _with_only_velocity(table, "velocity_final", "velocity_initial")
+
+
+def with_only_velocity_at_end(table: SchemeTable) -> SchemeTable | None:
+    """The table with its only velocity taken for that at the end of the rows; None as above."""
+    if "velocity_final" in table.lines:
+        return None
+    return _with_only_velocity(table, "velocity_initial", "velocity_final")
+
+
+def _with_only_velocity(table: SchemeTable, shown: str, taken_for: str) -> SchemeTable | None:
+    """The table with the velocity of one end of the rows taken for that of the other one."""
+    roles = {"depth": table.lines["depth"], taken_for: table.lines[shown]}
     taken = set(roles.values())
     beside = [o for o in (*table.lines.values(), *table.helpers) if o not in taken]
-    c = _step_of({name: table.lines[name] for name in ("depth", "velocity_final")})
+    c = _step_of({name: table.lines[name] for name in ("depth", shown)})
     return _completed(table.evaluator, roles, beside, c) if c else None
 
 
