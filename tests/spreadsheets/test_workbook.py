@@ -11,7 +11,7 @@ from random import Random
 from typing import Any
 
 import pytest
-from workbooks import FROM_PIP, stored, usable
+from workbooks import FASTEST, stored, usable
 
 from reference.ledger import load
 from reference.scheme import Scheme
@@ -53,7 +53,7 @@ CASES: dict[str, tuple[Impact | None, str]] = {
 
 
 IN_EVERY_PROGRAM = ["report", "report, centered", "resistance given", "slow, 0.09 m/s"]
-"""Cases for every program; the others are for the two that are fast."""
+"""Cases for every program; all are for the fastest."""
 
 
 @pytest.fixture(scope="session")
@@ -72,7 +72,7 @@ def check_recalculated(engine: Engine, files: dict[str, Any]) -> None:
 
 def test_recalculated_values_are_pythons_doubles(engine: Engine, files: dict[str, Any]) -> None:
     """Gnumeric computes in long doubles: its values are within the rounding bound."""
-    names = list(CASES) if engine.name in FROM_PIP else IN_EVERY_PROGRAM
+    names = list(CASES) if engine.name == FASTEST else IN_EVERY_PROGRAM
     check_recalculated(engine, {name: files[name] for name in names})
 
 
