@@ -45,7 +45,10 @@ def point(error: float, seconds: float, method: str = "closed form", **more: Any
 
 @pytest.fixture(scope="module")
 def beta_5() -> Case:
-    return build_case("beta-5")
+    """The report's case, at fewer moments than the bench compares: each takes a quadrature."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("replication.bench.measure.HISTORY_POINTS", 51)
+        return build_case("beta-5")
 
 
 def errors(case: Case, method: str, measure: str) -> list[float]:

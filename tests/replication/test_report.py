@@ -209,10 +209,11 @@ def test_what_inputs_without_a_meaning_leave_uncomputed(
     ("misprints", "drawings"),
     [
         ({"a1-initial-velocity": "0"}, {"comparison", "figure-5"}),
-        (
+        pytest.param(
             {"coarse-step": "0", "mean-diameter": "2", "velocity-deviation": "500",
              "volume-ratio-line": "0.68", "beta-range-least": "0", "figure-5-velocity-least": "0"},
             {"comparison", "sensitivity", "figure-3", "figure-5", "convergence"},
+            marks=pytest.mark.slow,
         ),
     ],
     ids=["velocity", "others"],

@@ -352,7 +352,11 @@ def test_a_progress_bar_is_shown_on_a_terminal(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("send", "number"),
-    [(os.killpg, signal.SIGINT), (os.kill, signal.SIGHUP), (os.kill, signal.SIGTERM)],
+    [
+        (os.killpg, signal.SIGINT),
+        pytest.param(os.kill, signal.SIGHUP, marks=pytest.mark.slow),
+        (os.kill, signal.SIGTERM),
+    ],
 )
 def test_an_interrupted_sweep_leaves_nothing(
     send: Callable[[int, int], None], number: int, tmp_path: Path

@@ -111,6 +111,7 @@ def test_what_cannot_be_solved_shows_no_number(
     assert page.errors == {}
 
 
+@pytest.mark.slow
 def test_every_program_solves_for_a_ratio(engine: Engine, emitted: Any, tmp_path: Path) -> None:
     (page,) = emitted.recalculated(engine, [{"solve.ratio": 1.25}], tmp_path)
     check_answers(page, 1.25 * BETA_5.radius, "resistance")
