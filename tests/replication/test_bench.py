@@ -152,6 +152,7 @@ def test_a_task_that_fails_or_takes_too_long_is_a_gap_with_a_reason(
     assert re.fullmatch(r"takes \S+ s, more than 0\.01 s", slow["gap"])
     assert (slow["best"], slow["error"], measure.met(slow)) == (None, None, math.inf)
     monkeypatch.setitem(sys.modules, "heyoka", None)
+    monkeypatch.setattr("replication.bench.measure.HISTORY_POINTS", 2)
     case = build_case("beta-3")  # for which no integrator is kept
     task = next(task for task in tasks(case) if task.method == "heyoka")
     reason = "not installed: python -m pip install 'coldspray[bench]'"

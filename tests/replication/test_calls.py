@@ -442,9 +442,10 @@ def test_one_sheet_of_many_that_takes_too_many_steps(
     ("impact", "message"),
     [
         (replace(BETA_5, step=1e-15, radius=1e-3), too_long("1e-15", "1.0")),
-        (
+        pytest.param(
             replace(BETA_5, beta=None, flow_stress=None, resistance=1.0, stop_velocity=0.01),
             too_long("2e-10", "0.01"),
+            marks=pytest.mark.slow,
         ),
     ],
 )

@@ -5,6 +5,7 @@ import re
 import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cache
 from itertools import chain
 from pathlib import Path
 from random import Random
@@ -57,28 +58,34 @@ IN_EVERY_PROGRAM = ["report", "report, centered", "resistance given", "slow, 0.0
 
 
 @pytest.fixture(scope="session")
-def files(build: Callable[..., Workbook], emit_to: Any) -> dict[str, Any]:
-    return {name: emit_to(build(*case)) for name, case in CASES.items()}
+def file_of(build: Callable[..., Workbook], emit_to: Any) -> Callable[[str], Any]:
+    """Return a function that writes the workbook of one of the cases, once."""
+    return cache(lambda name: emit_to(build(*CASES[name])))
 
 
-def check_recalculated(engine: Engine, files: dict[str, Any]) -> None:
+def check_recalculated(engine: Engine, file_of: Callable[[str], Any], names: Sequence[str]) -> None:
     """Assert that an engine gives the values of these workbooks, within the tolerances."""
-    result = engine.recalculate_many([file.path for file in files.values()])
-    for (name, file), values in zip(files.items(), result, strict=True):
+    files = [file_of(name) for name in names]
+    result = engine.recalculate_many([file.path for file in files])
+    for name, file, values in zip(names, files, result, strict=True):
         bound = file.book.rounding if engine.long_doubles else 0.0
         allowed = tolerances(file.book.plan, file.book.cells, bound)
         assert compare(file.book.cells, values, allowed) == [], name
 
 
-def test_recalculated_values_are_pythons_doubles(engine: Engine, files: dict[str, Any]) -> None:
+def test_recalculated_values_are_pythons_doubles(
+    engine: Engine, file_of: Callable[[str], Any]
+) -> None:
     """Gnumeric computes in long doubles: its values are within the rounding bound."""
     names = list(CASES) if engine.name == FASTEST else IN_EVERY_PROGRAM
-    check_recalculated(engine, {name: files[name] for name in names})
+    check_recalculated(engine, file_of, names)
 
 
 @pytest.mark.slow
-def test_all_recalculated_values_are_pythons_doubles(engine: Engine, files: dict[str, Any]) -> None:
-    check_recalculated(engine, files)
+def test_all_recalculated_values_are_pythons_doubles(
+    engine: Engine, file_of: Callable[[str], Any]
+) -> None:
+    check_recalculated(engine, file_of, list(CASES))
 
 
 def test_file_holds_the_plan_and_its_values(emitted: Any) -> None:
@@ -223,16 +230,16 @@ def check_label(engine: Engine, given: Any, folder: Path) -> None:
 
 
 def test_a_given_resistance_is_called_so_until_that_of_the_report_is_taken(
-    files: dict[str, Any], tmp_path: Path
+    file_of: Callable[[str], Any], tmp_path: Path
 ) -> None:
-    check_label(usable(FASTEST), files["resistance given"], tmp_path)
+    check_label(usable(FASTEST), file_of("resistance given"), tmp_path)
 
 
 @pytest.mark.slow
 def test_a_given_resistance_is_called_so_in_every_program(
-    engine: Engine, files: dict[str, Any], tmp_path: Path
+    engine: Engine, file_of: Callable[[str], Any], tmp_path: Path
 ) -> None:
-    check_label(engine, files["resistance given"], tmp_path)
+    check_label(engine, file_of("resistance given"), tmp_path)
 
 
 # Saved as .ods
