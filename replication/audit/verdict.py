@@ -21,6 +21,7 @@ from replication.audit.assessment import (
     Comparison,
     ConfirmedRange,
     EquationAssessment,
+    Ground,
     JudgedConstant,
     Judgement,
     Reading,
@@ -102,12 +103,12 @@ def _cross_checked(ledger: Ledger, name: str) -> Assessment:
     try:
         checked = CROSS_CHECKS[name].compare(ledger)
     except (ArithmeticError, ValueError) as error:  # an input has no meaning
-        return Assessment(Verdict.INCONSISTENT, no_value=str(error))
+        return Assessment(Verdict.INCONSISTENT, Ground.NO_VALUE, no_value=str(error))
     if checked.with_sources:
         verdict = Verdict.AGREES if checked.agrees else Verdict.DIFFERS
     else:
         verdict = Verdict.CONSISTENT if checked.agrees else Verdict.INCONSISTENT
-    return Assessment(verdict, compared=checked.says)
+    return Assessment(verdict, Ground.COMPARISON, compared=checked.says)
 
 
 def is_contradicted(ledger: Ledger, name: str) -> bool:
@@ -170,26 +171,30 @@ class Judge:
         or the claims that are computed from the number, or what limits it.
         """
         if claim.kind == "remark":
-            return Assessment(Verdict.REMARK)
+            return Assessment(Verdict.REMARK, Ground.WORDS)
         if claim.restates:
             is_met = is_consistent(self.ledger, claim)
-            return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
+            verdict = Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT
+            return Assessment(verdict, Ground.REPETITION)
         if claim.is_computed:
             return self._recomputed(claim)
         constant = self.constant(claim)
         if constant is not None and constant.verdict != Verdict.NOT_CHECKABLE:
-            return Assessment(constant.verdict)
+            return Assessment(constant.verdict, Ground.EQUATION)
         if sources := self.sources(claim.id):
             is_printed = any(source.agrees for source in sources)
-            return Assessment(Verdict.AGREES if is_printed else Verdict.DIFFERS)
+            verdict = Verdict.AGREES if is_printed else Verdict.DIFFERS
+            return Assessment(verdict, Ground.SOURCES)
         if claim.shown_by:
             is_met = self.confirmed_range(claim) is not None
-            return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
+            verdict = Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT
+            return Assessment(verdict, Ground.OTHERS)
         if claim.id in CROSS_CHECKS:
             return _cross_checked(self.ledger, claim.id)
         if claim.given == "definition":
-            return Assessment(Verdict.CONSISTENT)
-        return Assessment(Verdict.NOT_CHECKABLE)
+            return Assessment(Verdict.CONSISTENT, Ground.DEFINITION)
+        ground = Ground.NOTHING if constant is None else Ground.EQUATION
+        return Assessment(Verdict.NOT_CHECKABLE, ground)
 
     def constant(self, claim: Claim) -> JudgedConstant | None:
         """Return the judgement on a claim as a constant of its equation; None if it is none."""
@@ -204,10 +209,10 @@ class Judge:
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
         except ArithmeticError as error:
-            return Assessment(Verdict.NOT_REPRODUCED, no_value=str(error))
+            return Assessment(Verdict.NOT_REPRODUCED, Ground.NO_VALUE, no_value=str(error))
         verdict = readings[0].verdict
         told = standing(self.ledger, claim) if verdict is Verdict.REPRODUCED else None
-        return Assessment(verdict, readings, standing=told)
+        return Assessment(verdict, Ground.COMPUTATION, readings, standing=told)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         function = self.ledger.function(claim, reading=name)

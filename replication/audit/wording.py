@@ -12,7 +12,7 @@ from replication.audit.assessment import (
     Comparison,
     ConfirmedRange,
     EquationAssessment,
-    JudgedConstant,
+    Ground,
     Judgement,
     Reading,
     Verdict,
@@ -22,26 +22,27 @@ from replication.text import between, number, quantity
 
 
 def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
-    """Explain the verdict on a claim by what it rests on."""
+    """Explain the verdict on a claim by the ground on which it was decided."""
     ledger = judge.ledger
-    if assessed.verdict is Verdict.REMARK:
-        return remark(ledger, claim)
-    if assessed.no_value:
-        return f"With the numbers as printed it cannot be computed: {assessed.no_value}."
-    if assessed.readings:
-        return recomputation(judge, claim, assessed.readings)
-    if (constant := judge.constant(claim)) is not None:
-        return constant_explanation(ledger, claim, constant)
-    if claim.restates:
-        return repetition(ledger, claim, assessed.verdict)
-    if comparisons := judge.sources(claim.id):
-        return sources(ledger, claim, comparisons)
-    if claim.shown_by:
-        return fitting(ledger, claim, judge.confirmed_range(claim))
-    if assessed.compared:
-        return assessed.compared
-    if assessed.verdict is Verdict.CONSISTENT:
-        return f"Nothing to compute: {claim.why}."
+    match assessed.ground:
+        case Ground.WORDS:
+            return remark(ledger, claim)
+        case Ground.REPETITION:
+            return repetition(ledger, claim, assessed.verdict)
+        case Ground.COMPUTATION:
+            return recomputation(judge, claim, assessed.readings)
+        case Ground.NO_VALUE:
+            return f"With the numbers as printed it cannot be computed: {assessed.no_value}."
+        case Ground.EQUATION:
+            return constant_explanation(judge, claim)
+        case Ground.SOURCES:
+            return sources(ledger, claim, judge.sources(claim.id))
+        case Ground.OTHERS:
+            return fitting(ledger, claim, judge.confirmed_range(claim))
+        case Ground.COMPARISON:
+            return assessed.compared
+        case Ground.DEFINITION:
+            return f"Nothing to compute: {claim.why}."
     return f"Nothing in the report decides it: {claim.why}."
 
 
@@ -274,9 +275,10 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
     return text
 
 
-def constant_explanation(ledger: Ledger, claim: Claim, constant: JudgedConstant) -> str:
+def constant_explanation(judge: Judge, claim: Claim) -> str:
     """Explain the verdict on a constant of an equation."""
-    equation = ledger.equations[claim.within or ""]
+    equation, constant = judge.ledger.equations[claim.within or ""], judge.constant(claim)
+    assert constant is not None
     passes = f"the equation follows from {equation.follows_from}"
     if equation.kind == "taken over":
         passes = "the equation has the right dimensions, limits and signs"
