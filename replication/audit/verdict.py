@@ -5,6 +5,7 @@ from fractions import Fraction
 from functools import cache, cached_property, partial
 from itertools import islice
 from math import prod
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -215,12 +216,10 @@ class Judge:
         return Assessment(verdict, Ground.COMPUTATION, readings, standing=told)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
-        function = self.ledger.function(claim, reading=name)
-        exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
-        reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
-        reference /= _REALS.number(claim.si)
-        computed = float(reference)
-        if not self.ledger.misprinted:  # the models know nothing of a misprint in an equation
+        reference = self._by_formulas(claim, name)
+        if self.ledger.misprinted:  # the models know nothing of a misprint in an equation
+            computed = float(reference)
+        else:
             computed = float(Fraction(self.modelled(claim, name)) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
         judgements = islice(self._judgements(claim, name), None if self.every_convention else 1)
@@ -229,6 +228,16 @@ class Judge:
             for judgement in judgements
         )
         return Reading(name, claim.computations[name].summary, computed, digits, in_unit)
+
+    def _by_formulas(self, claim: Claim, reading: str) -> Any:
+        """Return the value by the ledger's formulas for the inputs as printed, in the claim's unit.
+
+        It is a number of `mpmath` with 50 digits.
+        """
+        function = self.ledger.function(claim, reading=reading)
+        value = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
+        exact = _REALS.number(value) if isinstance(value, Fraction) else value
+        return exact / _REALS.number(claim.si)
 
     def modelled(self, claim: Claim, reading: str = "", scheme: Scheme = Scheme.PUBLISHED) -> float:
         """Return the models' value of a claim for its inputs as printed, in SI."""
