@@ -210,7 +210,8 @@ class Judge:
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
         except ArithmeticError as error:
-            return Assessment(Verdict.NOT_REPRODUCED, Ground.NO_VALUE, no_value=str(error))
+            no_value = str(error) or "it divides by zero"  # of which `mpmath` says nothing
+            return Assessment(Verdict.NOT_REPRODUCED, Ground.NO_VALUE, no_value=no_value)
         verdict = readings[0].verdict
         told = standing(self.ledger, claim) if verdict is Verdict.REPRODUCED else None
         return Assessment(verdict, Ground.COMPUTATION, readings, standing=told)
