@@ -11,6 +11,7 @@ from replication.audit.explain import Explainer
 from replication.audit.slips import slips_tried
 from replication.audit.verdict import Judge
 from replication.models import depth
+from replication.models.estimates import constant_pressure_depth
 from replication.models.impact import Impact
 
 DERIVED = "derived from Eqs. 14 and 15"
@@ -84,6 +85,27 @@ def case(results: Results, beta: int, /, **changed: float) -> Impact:
     return Impact(**{**inputs, **changed})
 
 
+def of_beta(results: Results, beta: int) -> str:
+    """Return the beta of one of the report's cases in words, as the report prints it.
+
+    >>> from reference.ledger import load
+    >>> of_beta(Results(load()), 5)
+    'beta = 5'
+    """
+    return f"beta = {results.text(f'depth-beta-{beta}-beta')}"
+
+
 def exact_ratio(impact: Impact) -> float:
     """Return the exact final X/R [1] of the model (Eqs. 12-13)."""
     return depth.final_depth(**impact.motion) / impact.radius
+
+
+def constant_pressure_ratio(impact: Impact) -> float:
+    """Return the final X/R [1] at the constant pressure R_t: Eq. 13 without the target's inertia.
+
+    >>> from reference.ledger import load
+    >>> f"{constant_pressure_ratio(case(Results(load()), 5)):.3f}"
+    '0.752'
+    """
+    density, resistance = impact.particle_density, impact.target_resistance
+    return constant_pressure_depth(impact.velocity, 1.0, density, resistance)

@@ -7,8 +7,7 @@ from reference.units import to_si
 from replication.audit.findings.evidence import calculated, concerning, conclude, prints, proves
 from replication.audit.inference import DENSITY
 from replication.audit.record import Finding
-from replication.audit.results import Results, case, exact_ratio
-from replication.models.crater import crater_depth
+from replication.audit.results import Results, case, constant_pressure_ratio, exact_ratio
 
 
 def resistances(audit: Results) -> dict[int, Fraction]:
@@ -83,8 +82,7 @@ def inertia_term(audit: Results) -> Finding:
     """What the drag of Eq. 13 does to the depth."""
     text = audit.text
     energy = audit.exact("a1-density") * audit.exact("a1-initial-velocity") ** 2 / 2
-    works = {beta: float(energy / R_t) for beta, R_t in resistances(audit).items()}
-    without = {beta: crater_depth(ratio) for beta, ratio in works.items()}
+    without = {beta: constant_pressure_ratio(case(audit, beta)) for beta in (3, 5)}
     with_drag = {beta: exact_ratio(case(audit, beta)) for beta in (3, 5)}
     pressed_5 = prints(
         "pressed_5", "0.752", without[5], "1", "X/R at the constant pressure R_t, beta = 5"
@@ -99,7 +97,10 @@ def inertia_term(audit: Results) -> Finding:
     price_3 = prints(
         "price_3", "12", 1 - with_drag[3] / without[3], "percent", "the same, beta = 3"
     )
-    work = prints("work", "0.318", works[5], "1", "CV/PV at the constant pressure R_t, beta = 5")
+    work = prints(
+        "work", "0.318", energy / resistances(audit)[5], "1",
+        "CV/PV at the constant pressure R_t, beta = 5",
+    )  # fmt: skip
     steps = (
         calculated("0.3179", Fraction(8900 * 500**2, 2) / Fraction("3.5e9")),
         calculated("0.318", 0.7521**2 * (3 - 0.7521) / 4),

@@ -1,6 +1,5 @@
 """Findings on the particle stream: sizes, velocities, and what was observed (sections 2 and 4)."""
 
-from fractions import Fraction
 from math import pi, sqrt
 from statistics import NormalDist, fmean
 
@@ -13,6 +12,7 @@ from replication.audit.findings.evidence import (
     equals,
     prints,
 )
+from replication.audit.particle_sizes import Law, diameter_power, velocity_by_size
 from replication.audit.record import Finding
 from replication.audit.results import Results, case, exact_ratio
 from replication.models.crater import normalized_depth_from_volume_ratio, volume_ratio
@@ -89,11 +89,11 @@ def equation_1_scatter(audit: Results) -> Finding:
     """Eq. 1 has the particle's mass, but not its area."""
     text, exact = audit.text, audit.exact
     V, spread = exact("a1-initial-velocity"), exact("diameter-deviation") / exact("mean-diameter")
-    by_mass, by_drag = 3 * exact("eq1-power"), Fraction(1, 2)
-    mean_size = audit["mean-diameter"]
-    least, greatest = audit["particle-size-least"], audit["particle-size-greatest"]
-    smallest = audit["figure-1-velocity"] * (mean_size / least) ** float(by_mass)
-    largest = audit["figure-1-velocity"] * (mean_size / greatest) ** float(by_mass)
+    by_mass, by_drag = diameter_power(audit, Law.EQ_1), diameter_power(audit, Law.DRAG)
+    smallest, largest = (
+        velocity_by_size(audit, audit["figure-1-velocity"], audit[size], Law.EQ_1)
+        for size in ("particle-size-least", "particle-size-greatest")
+    )
     mass_ratio = 1 + 3 * spread**2
     power = equals("power", "1.5", by_mass, "1", "power of the diameter in Eq. 1, turned")
     drag_power = equals("drag_power", "0.5", by_drag, "1", "the same by drag on a sphere")
