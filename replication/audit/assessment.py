@@ -31,14 +31,14 @@ class Verdict(StrEnum):
         return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
 
     @property
-    def is_open(self) -> bool:
+    def needs_explanation(self) -> bool:
         """Whether the inputs as printed do not give the entry: explanations are tried for these."""
         return self.is_failure or self in (Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING)
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether it is open or differs from public sources: `power` counts it as noticed."""
-        return self.is_open or self is Verdict.DIFFERS
+        """Whether it needs one or differs from public sources: `power` counts it as noticed."""
+        return self.needs_explanation or self is Verdict.DIFFERS
 
 
 class Standing(StrEnum):

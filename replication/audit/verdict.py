@@ -106,9 +106,9 @@ def _cross_checked(ledger: Ledger, name: str) -> Assessment:
     except (ArithmeticError, ValueError) as error:  # an input has no meaning
         return Assessment(Verdict.INCONSISTENT, Ground.NO_VALUE, no_value=str(error))
     if checked.with_sources:
-        verdict = Verdict.AGREES if checked.agrees else Verdict.DIFFERS
+        verdict = Verdict.AGREES if checked.passes else Verdict.DIFFERS
     else:
-        verdict = Verdict.CONSISTENT if checked.agrees else Verdict.INCONSISTENT
+        verdict = Verdict.CONSISTENT if checked.passes else Verdict.INCONSISTENT
     return Assessment(verdict, Ground.COMPARISON, compared=checked.says)
 
 
@@ -334,7 +334,7 @@ class Judge:
     def is_confirmed(self, chosen: Claim, value: Fraction) -> bool:
         """Return whether all claims that confirm a number agree with this value (SI) of it."""
         ledger, changed = self.ledger, {**self.assumed, chosen.id: value}
-        return all(agrees(ledger, ledger.claims[name], changed) for name in chosen.shown_by)
+        return all(comes_out(ledger, ledger.claims[name], changed) for name in chosen.shown_by)
 
     # The inputs of a claim
 
@@ -423,8 +423,8 @@ Replacements = Mapping[str, Fraction]
 """Values of some entries (SI) in place of the printed ones."""
 
 
-def agrees(ledger: Ledger, claim: Claim, changed: Replacements, reading: str = "") -> bool:
-    """Return whether a claim agrees with its computation, in doubles, some entries changed."""
+def comes_out(ledger: Ledger, claim: Claim, changed: Replacements, reading: str = "") -> bool:
+    """Return whether a claim is what its computation gives, in doubles, some entries changed."""
     if claim.restates:
         return is_consistent(ledger, claim)
     target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
@@ -441,7 +441,8 @@ def agrees(ledger: Ledger, claim: Claim, changed: Replacements, reading: str = "
 def disagreeing(ledger: Ledger, names: Iterable[str], changed: Replacements) -> set[str]:
     """Return which of the claims disagree with their computations, some entries changed."""
     claims = (ledger.claims[name] for name in names)
-    return {c.id for c in claims if c.computation is not None and not agrees(ledger, c, changed)}
+    computed = (claim for claim in claims if claim.computation is not None)
+    return {claim.id for claim in computed if not comes_out(ledger, claim, changed)}
 
 
 # Equations, and the constants in them
