@@ -15,15 +15,16 @@ from msgspec.structs import replace
 
 from reference.ledger import load
 from replication.audit.findings.contradictions import minimum_velocity, wrong_reference
+from replication.audit.findings.densities import target_density
 from replication.audit.findings.evidence import FindingFunction
 from replication.audit.findings.frank_zook import (
     equation_16,
     frank_zook_pair,
-    frank_zook_values,
     headline,
     sphere_equivalent,
     two_resistances,
 )
+from replication.audit.findings.frank_zook_inputs import frank_zook_values
 from replication.audit.findings.hydrocodes import autodyne_cells, cth_pressure, unlike_strengths
 from replication.audit.findings.implications import (
     energy_balance,
@@ -38,7 +39,7 @@ from replication.audit.findings.resistance import (
     rigid_strength,
     strengths,
 )
-from replication.audit.findings.sheet import table_columns, target_density, two_schemes
+from replication.audit.findings.sheet import table_columns, two_schemes
 from replication.audit.findings.stream import (
     compared_velocity,
     equation_1_scatter,
