@@ -80,12 +80,12 @@ FINDINGS: tuple[FindingFunction, ...] = (
 )
 
 
-def findings(audit: Results) -> list[Finding]:
+def findings(results: Results) -> list[Finding]:
     """Return all findings, the headline first."""
-    return [_finding(find, audit) for find in FINDINGS]
+    return [_finding(find, results) for find in FINDINGS]
 
 
-def finding(audit: Results, name: str) -> Finding:
+def finding(results: Results, name: str) -> Finding:
     """Return one finding, by its id: its function's name, with hyphens. KeyError if there is none.
 
     >>> from replication.audit.audit import Audit
@@ -93,23 +93,23 @@ def finding(audit: Results, name: str) -> Finding:
     True
     """
     by_id = {find.function.__name__.replace("_", "-"): find for find in FINDINGS}
-    return _finding(by_id[name], audit)
+    return _finding(by_id[name], results)
 
 
-def findings_on(audit: Results, name: str) -> list[Finding]:
+def findings_on(results: Results, name: str) -> list[Finding]:
     """Return the findings that concern a claim or an equation, without the headline."""
-    return [_finding(find, audit) for find in FINDINGS[1:] if name in find.concerns]
+    return [_finding(find, results) for find in FINDINGS[1:] if name in find.concerns]
 
 
-def _finding(find: FindingFunction, audit: Results) -> Finding:
+def _finding(find: FindingFunction, results: Results) -> Finding:
     """Return a finding. With a misprint planted in the report, it may have numbers without a value.
 
     It is then the finding on the report itself, of which no number holds.
     """
     try:
-        return find(audit)
+        return find(results)
     except (ArithmeticError, LookupError, ValueError):
-        if not audit.ledger.misprinted:
+        if not results.ledger.misprinted:
             raise
     finding = find(_report())
     nothing = [replace(number, computed=None, holds=False) for number in finding.evidence]

@@ -31,10 +31,10 @@ class AdmittedNumbers(NamedTuple):
     centered_greatest: Evidence
 
 
-def densities_admitted(audit: Results) -> AdmittedNumbers:
+def densities_admitted(results: Results) -> AdmittedNumbers:
     """Return the densities that the table admits, header as printed but the sphere's mass."""
-    plain = audit.judge.inference(DENSITY)
-    middle = audit.judge.inference(DENSITY, scheme=Scheme.CENTERED)
+    plain = results.judge.inference(DENSITY)
+    middle = results.judge.inference(DENSITY, scheme=Scheme.CENTERED)
     least = prints(
         "least", "7839.6", plain.inner.ends[0], "kg/m^3",
         "least density that the table admits, header as printed but the sphere's mass",
@@ -62,9 +62,9 @@ class CutNumbers(NamedTuple):
     odd: Evidence
 
 
-def densities_if_cut(audit: Results) -> CutNumbers:
+def densities_if_cut(results: Results) -> CutNumbers:
     """Return the densities that give most cells with their digits cut off, and the other cells."""
-    cut = audit.judge.inference(DENSITY, rounding=Rounding.CUT)
+    cut = results.judge.inference(DENSITY, rounding=Rounding.CUT)
     least = prints(
         "cut_least", "7887", cut.inner.ends[0], "kg/m^3",
         "least density that gives all cells but these, digits cut off",
@@ -87,9 +87,9 @@ class BoundNumbers(NamedTuple):
     greatest: Evidence
 
 
-def bounds_header_rounded(audit: Results) -> BoundNumbers:
+def bounds_header_rounded(results: Results) -> BoundNumbers:
     """Return the bounds with the header of Table A-1 rounded."""
-    header_rounded = audit.judge.rounded(DENSITY, Convention()).ends
+    header_rounded = results.judge.rounded(DENSITY, Convention()).ends
     least = at_least(
         "possible_least", "7759", header_rounded[0], "kg/m^3",
         "proven lower bound, header as rounded",
@@ -101,9 +101,9 @@ def bounds_header_rounded(audit: Results) -> BoundNumbers:
     return BoundNumbers(least, greatest)
 
 
-def bounds_all_rounded(audit: Results) -> BoundNumbers:
+def bounds_all_rounded(results: Results) -> BoundNumbers:
     """Return the bounds with the header of Table A-1 and the author's choices rounded."""
-    all_rounded = audit.judge.rounded(DENSITY, Convention(choices_exact=False)).ends
+    all_rounded = results.judge.rounded(DENSITY, Convention(choices_exact=False)).ends
     least = at_least(
         "rounded_least", "7686", all_rounded[0], "kg/m^3",
         "proven lower bound, header and choices as rounded",
@@ -125,17 +125,17 @@ class NumbersOf304(NamedTuple):
     with_rounded_header: Evidence
 
 
-def densities_of_304(audit: Results) -> NumbersOf304:
+def densities_of_304(results: Results) -> NumbersOf304:
     """Count the densities that the cited sources print for 304, by what admits them."""
-    judge, sources = audit.judge, audit.ledger.sources
+    judge, sources = results.judge, results.ledger.sources
     excluded = proves(
         "excluded",
-        admits(audit, "304-density-sheet", Admission.EXCLUDED)
-        and admits(audit, "304-density-mill", Admission.EXCLUDED),
+        admits(results, "304-density-sheet", Admission.EXCLUDED)
+        and admits(results, "304-density-mill", Admission.EXCLUDED),
         "0.289 lb/in^3 and 8.03 g/cm^3 are proven impossible, header and choices as rounded",
     )
     chosen = proves(
-        "chosen", admits(audit, "304-density-793", Admission.CHOICES_ROUNDED),
+        "chosen", admits(results, "304-density-793", Admission.CHOICES_ROUNDED),
         "7.93 g/cm^3 is possible only if the velocity or the step is rounded, too; drag at the "
         "initial velocity",
     )  # fmt: skip
@@ -156,9 +156,9 @@ def densities_of_304(audit: Results) -> NumbersOf304:
     return NumbersOf304(excluded, chosen, all_printed, as_rounded, with_rounded_header)
 
 
-def admits(audit: Results, source: str, admission: Admission) -> bool:
+def admits(results: Results, source: str, admission: Admission) -> bool:
     """Return whether the evidence admits the density of a public source just so."""
-    return audit.judge.admission(audit.ledger.sources[source]) is admission
+    return results.judge.admission(results.ledger.sources[source]) is admission
 
 
 @concerning(
@@ -174,19 +174,19 @@ def admits(audit: Results, source: str, admission: Admission) -> bool:
     "depth-beta-3",
     "depth-beta-5",
 )
-def target_density(audit: Results) -> Finding:
+def target_density(results: Results) -> Finding:
     """The report never prints the target density that it computed with."""
-    text, judge = audit.text, audit.judge
+    text, judge = results.text, results.judge
     plain, middle = judge.inference(DENSITY), judge.inference(DENSITY, scheme=Scheme.CENTERED)
-    admitted, cut = densities_admitted(audit), densities_if_cut(audit)
-    header_rounded, all_rounded = bounds_header_rounded(audit), bounds_all_rounded(audit)
-    of_304 = densities_of_304(audit)
+    admitted, cut = densities_admitted(results), densities_if_cut(results)
+    header_rounded, all_rounded = bounds_header_rounded(results), bounds_all_rounded(results)
+    of_304 = densities_of_304(results)
     textbook = prints(
-        "textbook", "7861", audit.exact("304-density-textbook"), "kg/m^3",
+        "textbook", "7861", results.exact("304-density-textbook"), "kg/m^3",
         "what the textbook's table prints for 304",
     )  # fmt: skip
     named = proves(
-        "named", admits(audit, "304-density-textbook", Admission.ADMITTED),
+        "named", admits(results, "304-density-textbook", Admission.ADMITTED),
         "what the textbook's table prints for 304 is admitted",
     )  # fmt: skip
     centered_mass_greatest = prints(
@@ -198,23 +198,23 @@ def target_density(audit: Results) -> Finding:
         "greatest density with the printed mass",
     )  # fmt: skip
     assumed = equals(
-        "assumed", "7850", audit.exact(DENSITY), "kg/m^3", "density with which the audit computes"
+        "assumed", "7850", results.exact(DENSITY), "kg/m^3", "density with which the audit computes"
     )
     edge = equals(
-        "edge", "3.115E+08", audit.ledger.claims["a1-deceleration-1"].target().ends[1], "m/s^2",
+        "edge", "3.115E+08", results.ledger.claims["a1-deceleration-1"].target().ends[1], "m/s^2",
         "greatest deceleration that prints like that of row 1",
     )  # fmt: skip
     carbon = proves(
-        "carbon", admits(audit, "carbon-steel-density", Admission.ADMITTED),
+        "carbon", admits(results, "carbon-steel-density", Admission.ADMITTED),
         "7850 is admitted, header as printed but the sphere's mass",
     )  # fmt: skip
     depths = proves(
         "depths",
-        {audit.verdict("depth-beta-3"), audit.verdict("depth-beta-5")} == {Verdict.REPRODUCED},
+        {results.verdict("depth-beta-3"), results.verdict("depth-beta-5")} == {Verdict.REPRODUCED},
         "each admitted density gives both final depths",
     )
     mass = prints(
-        "mass", "4.962E-11", audit.computed("a1-mass"), "kg",
+        "mass", "4.962E-11", results.computed("a1-mass"), "kg",
         "mass of the sphere, 4/3 pi R^3 rho_p",
     )  # fmt: skip
     all_cells = proves("all", not plain.odd, "one density serves all eight cells")

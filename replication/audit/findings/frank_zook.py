@@ -43,54 +43,58 @@ def rise(
     return ar.log(1 + z / R_low) / ar.log(1 + z / R_t) - 1
 
 
-def least_rise(audit: Results, convention: Convention) -> Fraction:
+def least_rise(results: Results, convention: Convention) -> Fraction:
     """Return the proven least `rise` over all inputs that print like the report's."""
-    box = {name: audit.judge.rounded(entry, convention).ends for name, entry in RISE.items()}
+    box = {name: results.judge.rounded(entry, convention).ends for name, entry in RISE.items()}
     return enclose(rise, box).ends[0]
 
 
-def drag(audit: Results) -> Fraction:
+def drag(results: Results) -> Fraction:
     """k_t rho_t V^2 [Pa], the drag in Eq. 16's logarithm, at the inputs as printed."""
-    return audit.exact("fz-kt") * audit.exact(DENSITY) * audit.exact("a1-initial-velocity") ** 2
+    return (
+        results.exact("fz-kt") * results.exact(DENSITY) * results.exact("a1-initial-velocity") ** 2
+    )
 
 
-def inertia(audit: Results, length_ratio: str = "sphere-length-ratio") -> Fraction:
+def inertia(results: Results, length_ratio: str = "sphere-length-ratio") -> Fraction:
     """L/D rho_p/rho_t + k_1 [1] of Eq. 16 at the inputs as printed; the claim gives L/D."""
-    densities = audit.exact("a1-density") / audit.exact(DENSITY)
-    return audit.exact(length_ratio) * densities + audit.exact("fz-k1")
+    densities = results.exact("a1-density") / results.exact(DENSITY)
+    return results.exact(length_ratio) * densities + results.exact("fz-k1")
 
 
 def derived_ratio(
-    audit: Results, R_t: Fraction, length_ratio: str = "sphere-length-ratio"
+    results: Results, R_t: Fraction, length_ratio: str = "sphere-length-ratio"
 ) -> float:
     """X/R [1] from Eqs. 14 and 15 at the target resistance R_t [Pa]."""
-    return float(inertia(audit, length_ratio) / audit.exact("fz-kt")) * log1p(drag(audit) / R_t)
+    return float(inertia(results, length_ratio) / results.exact("fz-kt")) * log1p(
+        drag(results) / R_t
+    )
 
 
-def common_velocity(audit: Results) -> float:
+def common_velocity(results: Results) -> float:
     """Return the velocity [m/s] up to which Eq. 16 raises X/R by more than the print allows.
 
     The rise is the least for the greatest k_t and for the two R_t closest together, and it falls
     as the velocity grows: so it holds below this velocity.
     """
     rounded = Convention(choices_exact=False)
-    k_t = audit.judge.rounded("fz-kt", rounded).ends[1]
-    R_t = audit.judge.rounded("fz-resistance-rha", rounded).ends[0]
-    R_low = audit.judge.rounded("fz-resistance-stainless", rounded).ends[1]
+    k_t = results.judge.rounded("fz-kt", rounded).ends[1]
+    R_t = results.judge.rounded("fz-resistance-rha", rounded).ends[0]
+    R_low = results.judge.rounded("fz-resistance-stainless", rounded).ends[1]
     least, greatest, floats = Fraction(100), Fraction(10**5), Floats()
     for _ in range(50):  # to 1e-10 m/s
         middle = (least + greatest) / 2
-        values = [float(value) for value in (k_t, audit.exact(DENSITY), middle, R_t, R_low)]
-        if rise(floats, *values) > greatest_rise(audit):
+        values = [float(value) for value in (k_t, results.exact(DENSITY), middle, R_t, R_low)]
+        if rise(floats, *values) > greatest_rise(results):
             least = middle
         else:
             greatest = middle
     return float(least)
 
 
-def greatest_rise(audit: Results) -> Fraction:
+def greatest_rise(results: Results) -> Fraction:
     """Return the greatest ratio of two X/R that print like the two of section 3, less one."""
-    armor, steel = (audit.ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless"))
+    armor, steel = (results.ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless"))
     return steel.target().ends[1] / armor.target().ends[0] - 1
 
 
@@ -98,32 +102,32 @@ RESULTS = ("depth-beta-3", "depth-beta-5", "ratio-beta-3", "ratio-beta-5")
 """The final depths of the report's model, and their X/R."""
 
 
-def derived_over_printed(audit: Results) -> Fraction:
+def derived_over_printed(results: Results) -> Fraction:
     """Return the derived over the printed right side of Eq. 16; 0 if that is not one number."""
-    factor = audit.judge.assess_equation("eq16").factor
+    factor = results.judge.assess_equation("eq16").factor
     return Fraction(0) if factor is None else 1 / factor
 
 
 @concerning("frank-zook-rha", "frank-zook-stainless", "eq16")
-def headline(audit: Results) -> Finding:
+def headline(results: Results) -> Finding:
     """The sentence with which files begin and the text on a terminal ends."""
     factor = equals(
         "factor",
         "2",
-        derived_over_printed(audit),
+        derived_over_printed(results),
         "1",
         "derived right side of Eq. 16 over the printed one",
     )
-    apart = least_rise(audit, Convention(choices_exact=False)) - greatest_rise(audit)
+    apart = least_rise(results, Convention(choices_exact=False)) - greatest_rise(results)
     evidence = (
         proves(
             "model",
-            {*audit.verdicts("a1-"), *map(audit.verdict, RESULTS)} == {Verdict.REPRODUCED},
+            {*results.verdicts("a1-"), *map(results.verdict, RESULTS)} == {Verdict.REPRODUCED},
             "Table A-1, both final depths and their X/R are reproduced",
         ),
         proves(
             "pair",
-            audit.verdicts("frank-zook-") == {Verdict.NOT_REPRODUCED},
+            results.verdicts("frank-zook-") == {Verdict.NOT_REPRODUCED},
             "neither Frank-Zook value follows from Eq. 16 as printed",
         ),
         above(
@@ -150,9 +154,9 @@ def headline(audit: Results) -> Finding:
 @concerning(
     "frank-zook-rha", "frank-zook-stainless", "fz-resistance-rha", "fz-resistance-stainless"
 )
-def frank_zook_pair(audit: Results) -> Finding:
+def frank_zook_pair(results: Results) -> Finding:
     """Section 3 changes only R_t between its two X/R, but R_t alone moves them further apart."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     armor, steel = text("frank-zook-rha"), text("frank-zook-stainless")
     R_t, R_low = exact("fz-resistance-rha"), exact("fz-resistance-stainless")
     falls = prints(
@@ -160,15 +164,15 @@ def frank_zook_pair(audit: Results) -> Finding:
         "by how much R_t falls from the one value to the other",
     )  # fmt: skip
     least = at_least(
-        "least", "17.7", least_rise(audit, Convention()), "percent",
+        "least", "17.7", least_rise(results, Convention()), "percent",
         "proven least rise of X/R, the R_t tried for stainless steel exact",
     )  # fmt: skip
     least_rounded = at_least(
-        "least_rounded", "16.9", least_rise(audit, Convention(choices_exact=False)), "percent",
+        "least_rounded", "16.9", least_rise(results, Convention(choices_exact=False)), "percent",
         "proven least rise of X/R, all inputs rounded",
     )  # fmt: skip
     nominal = prints(
-        "nominal", "17.9", log1p(drag(audit) / R_low) / log1p(drag(audit) / R_t) - 1, "percent",
+        "nominal", "17.9", log1p(drag(results) / R_low) / log1p(drag(results) / R_t) - 1, "percent",
         "rise of X/R at the inputs as printed",
     )  # fmt: skip
     printed = prints(
@@ -178,15 +182,15 @@ def frank_zook_pair(audit: Results) -> Finding:
     most = at_most(
         "most",
         "7.21",
-        greatest_rise(audit),
+        greatest_rise(results),
         "percent",
         "greatest rise of two numbers that print so",
     )
     z = prints(
-        "z", "2.053", drag(audit), "GPa", "k_t rho_t V^2 at the inputs as printed and 7850 kg/m^3"
+        "z", "2.053", drag(results), "GPa", "k_t rho_t V^2 at the inputs as printed and 7850 kg/m^3"
     )
     limit = at_least(
-        "limit", "2975", common_velocity(audit), "m/s",
+        "limit", "2975", common_velocity(results), "m/s",
         "velocity below which this holds, both R_t and k_t rounded, 7850 kg/m^3",
     )  # fmt: skip
     density = equals("density", "7850", exact(DENSITY), "kg/m^3", "target density taken there")
@@ -220,17 +224,17 @@ def frank_zook_pair(audit: Results) -> Finding:
 
 
 @concerning("eq16", "eq16-denominator", "frank-zook-rha", "frank-zook-stainless")
-def equation_16(audit: Results) -> Finding:
+def equation_16(results: Results) -> Finding:
     """Eq. 16 prints X/R, but its right side is X/D."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     observed = exact("observed-depth-ratio")
-    as_printed = {t: audit.computed(f"frank-zook-{t}") for t in ("rha", "stainless")}
-    derived = {t: audit.computed(f"frank-zook-{t}", DERIVED) for t in ("rha", "stainless")}
-    (needed,) = audit.judge.assess_equation("eq16").constants["eq16-denominator"].needed
+    as_printed = {t: results.computed(f"frank-zook-{t}") for t in ("rha", "stainless")}
+    derived = {t: results.computed(f"frank-zook-{t}", DERIVED) for t in ("rha", "stainless")}
+    (needed,) = results.judge.assess_equation("eq16").constants["eq16-denominator"].needed
     factor = equals(
         "factor",
         "2",
-        derived_over_printed(audit),
+        derived_over_printed(results),
         "1",
         "derived right side of Eq. 16 over the printed one",
     )
@@ -277,7 +281,7 @@ def equation_16(audit: Results) -> Finding:
         "greatest distance of the derived form from the observed X/R",
     )  # fmt: skip
     k_t, R_t = exact("fz-kt"), exact("fz-resistance-rha") / 10**9
-    sum_ = calculated("1.313", inertia(audit))
+    sum_ = calculated("1.313", inertia(results))
     half = calculated("0.127", 1.3128 / (2 * k_t) * log(1 + 2.0528 / R_t))
     two = text("eq16-denominator")
     return conclude(
@@ -322,32 +326,33 @@ def equation_16(audit: Results) -> Finding:
     "frank-zook-rha",
     "frank-zook-stainless",
 )
-def two_resistances(audit: Results) -> Finding:
+def two_resistances(results: Results) -> Finding:
     """The report gives the same target other resistances in its two models."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     Y_t = exact("flow-stress")
     R_3, R_5 = exact("depth-beta-3-beta") * Y_t, exact("depth-beta-5-beta") * Y_t
     low = prints("low", "2.1", R_3, "GPa", "R_t for beta = 3")
     high = prints("high", "3.5", R_5, "GPa", "R_t for beta = 5")
     fz_low = prints(
-        "fz_low", "0.856", derived_ratio(audit, R_3), "1",
+        "fz_low", "0.856", derived_ratio(results, R_3), "1",
         "X/R from Eqs. 14 and 15 at the R_t of beta = 3",
     )  # fmt: skip
     fz_high = prints(
-        "fz_high", "0.579", derived_ratio(audit, R_5), "1",
+        "fz_high", "0.579", derived_ratio(results, R_5), "1",
         "X/R from Eqs. 14 and 15 at the R_t of beta = 5",
     )  # fmt: skip
     model_stainless = prints(
         "model_stainless", "0.466",
-        exact_ratio(case(audit, 5, resistance=audit["fz-resistance-stainless"])), "1",
+        exact_ratio(case(results, 5, resistance=results["fz-resistance-stainless"])), "1",
         "exact X/R of the model at the R_t tried for stainless steel",
     )  # fmt: skip
     model_rha = prints(
-        "model_rha", "0.424", exact_ratio(case(audit, 5, resistance=audit["fz-resistance-rha"])),
-        "1", "exact X/R of the model at the R_t of armor",
+        "model_rha", "0.424",
+        exact_ratio(case(results, 5, resistance=results["fz-resistance-rha"])), "1",
+        "exact X/R of the model at the R_t of armor",
     )  # fmt: skip
-    inertia_ = prints("inertia", "1.3128", inertia(audit), "1", "L/D rho_p/rho_t + k_1")
-    z = prints("z", "2.0528", drag(audit), "GPa", "k_t rho_t V^2")
+    inertia_ = prints("inertia", "1.3128", inertia(results), "1", "L/D rho_p/rho_t + k_1")
+    z = prints("z", "2.0528", drag(results), "GPa", "k_t rho_t V^2")
     R_t = exact("a1-resistance") / 10**9
     step = calculated("0.579", 1.3128 / exact("fz-kt") * log(1 + 2.0528 / R_t))
     return conclude(
@@ -372,9 +377,9 @@ def two_resistances(audit: Results) -> Finding:
 
 
 @concerning("circumscribed-length-ratio", "sphere-length-ratio")
-def sphere_equivalent(audit: Results) -> Finding:
+def sphere_equivalent(results: Results) -> Finding:
     """The report's two sentences on the cylinder that stands for the sphere do not fit together."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     around = "circumscribed-length-ratio"
     R_armor, R_steel = exact("fz-resistance-rha"), exact("fz-resistance-stainless")
     # A cylinder with L = d has the sphere's mass if (pi/4) d^3 = (pi/6) D^3. Eq. 16 then gives
@@ -389,11 +394,11 @@ def sphere_equivalent(audit: Results) -> Finding:
         "diameter of a cylinder with L/D = 1 and the sphere's mass, over the sphere's",
     )  # fmt: skip
     equal_rha = prints(
-        "equal_rha", "0.286", derived_ratio(audit, R_armor, around) * narrower, "1",
+        "equal_rha", "0.286", derived_ratio(results, R_armor, around) * narrower, "1",
         "X/R from Eqs. 14 and 15 for that cylinder, R_t of armor",
     )  # fmt: skip
     equal_stainless = prints(
-        "equal_stainless", "0.338", derived_ratio(audit, R_steel, around) * narrower, "1",
+        "equal_stainless", "0.338", derived_ratio(results, R_steel, around) * narrower, "1",
         "X/R from Eqs. 14 and 15 for that cylinder, stainless steel",
     )  # fmt: skip
     heavier = prints(
@@ -401,11 +406,11 @@ def sphere_equivalent(audit: Results) -> Finding:
         "mass of the cylinder with L/D = 1 around the sphere, over the sphere's",
     )  # fmt: skip
     long_rha = prints(
-        "long_rha", "0.328", derived_ratio(audit, R_armor, around), "1",
+        "long_rha", "0.328", derived_ratio(results, R_armor, around), "1",
         "X/R from Eqs. 14 and 15 for the cylinder around the sphere, R_t of armor",
     )  # fmt: skip
     long_stainless = prints(
-        "long_stainless", "0.386", derived_ratio(audit, R_steel, around), "1",
+        "long_stainless", "0.386", derived_ratio(results, R_steel, around), "1",
         "X/R from Eqs. 14 and 15 for the cylinder around the sphere, stainless steel",
     )  # fmt: skip
     steps = (calculated("0.667", Fraction(4, 6)), calculated("0.874", (4 / 6) ** (1 / 3)))

@@ -24,60 +24,60 @@ from replication.audit.results import DERIVED, Results
 from replication.audit.slips import EVERY_DENSITY
 
 
-def input_needed(audit: Results, claim: str, entry: str) -> Fraction:
+def input_needed(results: Results, claim: str, entry: str) -> Fraction:
     """Return the middle of the values (SI) of an input with which Eqs. 14 and 15 give a claim."""
-    solutions = audit.explainer.solutions(audit.ledger.claims[claim], DERIVED, entry)
+    solutions = results.explainer.solutions(results.ledger.claims[claim], DERIVED, entry)
     return sum(solutions.inner[0], Fraction(0)) / 2
 
 
-def nearest_resistance(audit: Results, grid: Fraction) -> Fraction:
+def nearest_resistance(results: Results, grid: Fraction) -> Fraction:
     """Return the R_t [Pa] on a grid whose derived X/R comes nearest to the observed one."""
-    observed = audit["observed-depth-ratio"]
+    observed = results["observed-depth-ratio"]
     return min(
         (grid * k for k in range(1, 200)),
-        key=lambda R_t: abs(derived_ratio(audit, R_t) - observed),
+        key=lambda R_t: abs(derived_ratio(results, R_t) - observed),
     )
 
 
-def typed_without_brackets(audit: Results, rho_t: Fraction, R_t: Fraction) -> float:
+def typed_without_brackets(results: Results, rho_t: Fraction, R_t: Fraction) -> float:
     """X/R [1], twice Eq. 16, with "/2*k_t" in a cell, which multiplies by k_t.
 
     Target density rho_t [kg/m^3] and resistance R_t [Pa].
     """
-    k_t, V = exact_of(audit, "fz-kt", "a1-initial-velocity")
-    L_D, rho_p, k_1 = exact_of(audit, "sphere-length-ratio", "a1-density", "fz-k1")
+    k_t, V = exact_of(results, "fz-kt", "a1-initial-velocity")
+    L_D, rho_p, k_1 = exact_of(results, "sphere-length-ratio", "a1-density", "fz-k1")
     return float((L_D * rho_p / rho_t + k_1) * k_t) * log1p(k_t * rho_t * V**2 / R_t)
 
 
-def density_on_k_1(audit: Results, R_t: Fraction) -> float:
+def density_on_k_1(results: Results, R_t: Fraction) -> float:
     """X/R [1], twice Eq. 16, with the density ratio on k_1 in place of L/D; R_t [Pa]."""
-    L_D, rho_p, k_1, k_t = exact_of(audit, "sphere-length-ratio", "a1-density", "fz-k1", "fz-kt")
-    bracket = L_D + k_1 * rho_p / audit.exact(DENSITY)
-    return float(bracket / k_t) * log1p(drag(audit) / R_t)
+    L_D, rho_p, k_1, k_t = exact_of(results, "sphere-length-ratio", "a1-density", "fz-k1", "fz-kt")
+    bracket = L_D + k_1 * rho_p / results.exact(DENSITY)
+    return float(bracket / k_t) * log1p(drag(results) / R_t)
 
 
-def densities_that_give(audit: Results, claim: str) -> tuple[float, float]:
+def densities_that_give(results: Results, claim: str) -> tuple[float, float]:
     """Return the densities [kg/m^3] between which `typed_without_brackets` prints as the claim."""
-    least, greatest = audit.ledger.claims[claim].target().ends
-    return _density_that_gives(audit, float(least)), _density_that_gives(audit, float(greatest))
+    least, greatest = results.ledger.claims[claim].target().ends
+    return _density_that_gives(results, float(least)), _density_that_gives(results, float(greatest))
 
 
-def _density_that_gives(audit: Results, ratio: float) -> float:
+def _density_that_gives(results: Results, ratio: float) -> float:
     """Return the target density [kg/m^3] at which `typed_without_brackets`, which grows, is so."""
-    R_t = audit.exact("fz-resistance-rha")
+    R_t = results.exact("fz-resistance-rha")
     low, high = Fraction(7000), Fraction(9000)
     for _ in range(40):  # to 2e-9 kg/m^3
         middle = (low + high) / 2
-        if typed_without_brackets(audit, middle, R_t) < ratio:
+        if typed_without_brackets(results, middle, R_t) < ratio:
             low = middle
         else:
             high = middle
     return float(low)
 
 
-def exact_of(audit: Results, *names: str) -> list[Fraction]:
+def exact_of(results: Results, *names: str) -> list[Fraction]:
     """Return the values (SI) of several entries."""
-    return [audit.exact(name) for name in names]
+    return [results.exact(name) for name in names]
 
 
 TARGETS = ("rha", "stainless")
@@ -93,22 +93,22 @@ class DerivedNumbers(NamedTuple):
     least_admitted: Evidence
 
 
-def derived_for_stainless(audit: Results) -> DerivedNumbers:
+def derived_for_stainless(results: Results) -> DerivedNumbers:
     """Return X/R from Eqs. 14 and 15, and how small other inputs that print alike make it."""
-    judge, stainless = audit.judge, audit.ledger.claims["frank-zook-stainless"]
-    function = audit.ledger.function(stainless, reading=DERIVED)
+    judge, stainless = results.judge, results.ledger.claims["frank-zook-stainless"]
+    function = results.ledger.function(stainless, reading=DERIVED)
     usual = judge.inputs_as_rounded(stainless, Convention())
     admitted = {
         **judge.inputs_as_rounded(stainless, Convention(choices_exact=False)),
         "a1-initial-velocity": usual["a1-initial-velocity"],
         DENSITY: judge.rounded(DENSITY, Convention(header_exact=True)).ends,
     }
-    X_R = audit.computed("frank-zook-stainless", DERIVED)
+    X_R = results.computed("frank-zook-stainless", DERIVED)
     derived = prints(
         "derived", "0.300", X_R, "1", "X/R from Eqs. 14 and 15, the R_t tried for stainless steel"
     )
     off = prints(
-        "off", "1", X_R / audit.exact("frank-zook-stainless") - 1, "percent",
+        "off", "1", X_R / results.exact("frank-zook-stainless") - 1, "percent",
         "that over the printed value, less one",
     )  # fmt: skip
     least_exact = at_least(
@@ -134,34 +134,34 @@ class ResistanceNumbers(NamedTuple):
     back: Evidence
 
 
-def resistances_for_stainless(audit: Results) -> ResistanceNumbers:
+def resistances_for_stainless(results: Results) -> ResistanceNumbers:
     """Return the R_t that gives the value for stainless steel, and how it may have been found."""
-    X_R = audit.computed("frank-zook-stainless", DERIVED)
-    z, sum_, k_t = drag(audit), inertia(audit), audit.exact("fz-kt")
-    digit = audit.last_digit("fz-resistance-stainless")
+    X_R = results.computed("frank-zook-stainless", DERIVED)
+    z, sum_, k_t = drag(results), inertia(results), results.exact("fz-kt")
+    digit = results.last_digit("fz-resistance-stainless")
     grid = equals("grid", "0.1", digit, "GPa", "unit of the last digit of that R_t")
     corner = proves(
         "corner",
         {
             judgement.verdict
-            for judgement in audit.reading("frank-zook-stainless", DERIVED).judgements
+            for judgement in results.reading("frank-zook-stainless", DERIVED).judgements
             if judgement.convention == Convention(choices_exact=False)
         }
         == {Verdict.WITHIN_ROUNDING},
         "with that R_t rounded, some inputs that print like the report's give the printed value",
     )
     needed = prints(
-        "needed", "7.69", input_needed(audit, "frank-zook-stainless", "fz-resistance-stainless"),
+        "needed", "7.69", input_needed(results, "frank-zook-stainless", "fz-resistance-stainless"),
         "GPa",
         "R_t that gives the printed value, derived form",
     )  # fmt: skip
-    R_nearest = nearest_resistance(audit, digit)
+    R_nearest = nearest_resistance(results, digit)
     nearest = prints(
         "nearest", "7.7", R_nearest, "GPa",
         "R_t on a grid of 0.1 GPa whose X/R is nearest to the observed one",
     )  # fmt: skip
     after = prints(
-        "next", "0.2966", derived_ratio(audit, R_nearest), "1", "X/R with an R_t 0.1 GPa higher"
+        "next", "0.2966", derived_ratio(results, R_nearest), "1", "X/R with an R_t 0.1 GPa higher"
     )
     three_digits = Fraction(f"{X_R:.2e}")
     back = prints(
@@ -180,25 +180,25 @@ class ArmorNumbers(NamedTuple):
     never: Evidence
 
 
-def needed_for_armor(audit: Results) -> ArmorNumbers:
+def needed_for_armor(results: Results) -> ArmorNumbers:
     """Return the inputs that would give the value for armor, and what the printed ones give."""
     resistance = prints(
-        "rha_resistance", "8.28", input_needed(audit, "frank-zook-rha", "fz-resistance-rha"), "GPa",
-        "R_t that gives the value for armor, derived form",
+        "rha_resistance", "8.28", input_needed(results, "frank-zook-rha", "fz-resistance-rha"),
+        "GPa", "R_t that gives the value for armor, derived form",
     )  # fmt: skip
     velocity = prints(
-        "rha_velocity", "525", input_needed(audit, "frank-zook-rha", "a1-initial-velocity"), "m/s",
-        "V that gives the value for armor, derived form",
+        "rha_velocity", "525", input_needed(results, "frank-zook-rha", "a1-initial-velocity"),
+        "m/s", "V that gives the value for armor, derived form",
     )  # fmt: skip
     derived = prints(
-        "rha_derived", "0.255", audit.computed("frank-zook-rha", DERIVED), "1",
+        "rha_derived", "0.255", results.computed("frank-zook-rha", DERIVED), "1",
         "X/R from Eqs. 14 and 15, R_t of armor",
     )  # fmt: skip
     never = proves(
         "never",
         {
             judgement.verdict
-            for reading in audit.judge.assess(audit.ledger.claims["frank-zook-rha"]).readings
+            for reading in results.judge.assess(results.ledger.claims["frank-zook-rha"]).readings
             for judgement in reading.judgements
             if judgement.convention.choices_exact
         }
@@ -220,9 +220,9 @@ class FamilyNumbers(NamedTuple):
     fit_both: Evidence
 
 
-def family_of_slips(audit: Results) -> FamilyNumbers:
+def family_of_slips(results: Results) -> FamilyNumbers:
     """Count the family of slips and those that give the two values."""
-    tried = {name: audit.slips(audit.ledger.claims[f"frank-zook-{name}"]) for name in TARGETS}
+    tried = {name: results.slips(results.ledger.claims[f"frank-zook-{name}"]) for name in TARGETS}
     names = {name: {slip.name for slip in fitting} for name, (_, fitting) in tried.items()}
     forms = equals(
         "forms", "2532", tried["rha"][0].forms, "1", "forms of Eq. 16 in the family of slips"
@@ -263,12 +263,12 @@ class TakenNumbers(NamedTuple):
     both_copper: Evidence
 
 
-def slips_by_density(audit: Results) -> TakenNumbers:
+def slips_by_density(results: Results) -> TakenNumbers:
     """Count the slips that give the two values at one density; one gives armor's at any."""
-    tried = {name: audit.slips(audit.ledger.claims[f"frank-zook-{name}"]) for name in TARGETS}
+    tried = {name: results.slips(results.ledger.claims[f"frank-zook-{name}"]) for name in TARGETS}
     at_taken = {
         name: sum(
-            audit.ledger.claims[f"frank-zook-{name}"].target().contains(Fraction(slip.value))
+            results.ledger.claims[f"frank-zook-{name}"].target().contains(Fraction(slip.value))
             for slip in fitting
         )
         for name, (_, fitting) in tried.items()
@@ -299,11 +299,11 @@ class SingleSlipNumbers(NamedTuple):
     on_k_1_other: Evidence
 
 
-def single_slips(audit: Results) -> SingleSlipNumbers:
+def single_slips(results: Results) -> SingleSlipNumbers:
     """Return X/R with "/2*k_t" typed without brackets, and with the density ratio on k_1."""
-    exact = audit.exact
+    exact = results.exact
     multiplied_rha, multiplied_stainless = (
-        typed_without_brackets(audit, exact(DENSITY), R_t)
+        typed_without_brackets(results, exact(DENSITY), R_t)
         for R_t in (exact("fz-resistance-rha"), exact("fz-resistance-stainless"))
     )
     multiplied = prints(
@@ -313,7 +313,7 @@ def single_slips(audit: Results) -> SingleSlipNumbers:
     multiplied_other = prints(
         "multiplied_other", "0.328", multiplied_stainless, "1", "the same, stainless steel"
     )
-    from_density, to_density = densities_that_give(audit, "frank-zook-rha")
+    from_density, to_density = densities_that_give(results, "frank-zook-rha")
     from_ = at_most(
         "from", "7764.3", from_density, "kg/m^3",
         "target density from which that prints as the armor value",
@@ -322,18 +322,18 @@ def single_slips(audit: Results) -> SingleSlipNumbers:
         "below", "7849.7", to_density, "kg/m^3",
         "target density below which that prints as the armor value",
     )  # fmt: skip
-    with_mass = audit.judge.inference(DENSITY).with_mass.ends
+    with_mass = results.judge.inference(DENSITY).with_mass.ends
     always = proves(
         "always",
         from_density < with_mass[0] and with_mass[1] < to_density,
         "it does for every density that the header of Table A-1 admits with its printed mass",
     )
     on_k_1 = prints(
-        "on_k_1", "0.29674", density_on_k_1(audit, exact("fz-resistance-stainless")), "1",
+        "on_k_1", "0.29674", density_on_k_1(results, exact("fz-resistance-stainless")), "1",
         "X/R twice X/D, the density ratio on k_1 in place of L/D, stainless steel",
     )  # fmt: skip
     on_k_1_other = prints(
-        "on_k_1_other", "0.252", density_on_k_1(audit, exact("fz-resistance-rha")), "1",
+        "on_k_1_other", "0.252", density_on_k_1(results, exact("fz-resistance-rha")), "1",
         "the same, armor",
     )  # fmt: skip
     return SingleSlipNumbers(
@@ -342,16 +342,16 @@ def single_slips(audit: Results) -> SingleSlipNumbers:
 
 
 @concerning("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
-def frank_zook_values(audit: Results) -> Finding:
+def frank_zook_values(results: Results) -> Finding:
     """What would give the two printed values."""
-    text, exact = audit.text, audit.exact
-    stainless, resistance = derived_for_stainless(audit), resistances_for_stainless(audit)
-    armor, family = needed_for_armor(audit), family_of_slips(audit)
-    taken, single = slips_by_density(audit), single_slips(audit)
+    text, exact = results.text, results.exact
+    stainless, resistance = derived_for_stainless(results), resistances_for_stainless(results)
+    armor, family = needed_for_armor(results), family_of_slips(results)
+    taken, single = slips_by_density(results), single_slips(results)
     k_t = exact("fz-kt")
     assumed = equals("assumed", "7850", exact(DENSITY), "kg/m^3", "target density that is taken")
-    inertia_ = prints("inertia", "1.3128", inertia(audit), "1", "L/D rho_p/rho_t + k_1")
-    z_ = prints("z", "2.0528", drag(audit), "GPa", "k_t rho_t V^2")
+    inertia_ = prints("inertia", "1.3128", inertia(results), "1", "L/D rho_p/rho_t + k_1")
+    z_ = prints("z", "2.0528", drag(results), "GPa", "k_t rho_t V^2")
     R_steel = exact("fz-resistance-stainless") / 10**9
     steps = (
         calculated("0.300", 1.3128 / k_t * log(1 + 2.0528 / R_steel)),

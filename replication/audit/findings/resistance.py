@@ -10,15 +10,15 @@ from replication.audit.record import Finding
 from replication.audit.results import Results, case, constant_pressure_ratio, exact_ratio
 
 
-def resistances(audit: Results) -> dict[int, Fraction]:
+def resistances(results: Results) -> dict[int, Fraction]:
     """R_t = beta Y_t [Pa] for the two beta of the report's model (Eq. 7)."""
-    Y_t = audit.exact("flow-stress")
-    return {beta: audit.exact(f"depth-beta-{beta}-beta") * Y_t for beta in (3, 5)}
+    Y_t = results.exact("flow-stress")
+    return {beta: results.exact(f"depth-beta-{beta}-beta") * Y_t for beta in (3, 5)}
 
 
-def impact_pressure(audit: Results) -> Fraction:
+def impact_pressure(results: Results) -> Fraction:
     """rho_t V^2/2 [Pa] at the impact."""
-    return audit.exact(DENSITY) * audit.exact("a1-initial-velocity") ** 2 / 2
+    return results.exact(DENSITY) * results.exact("a1-initial-velocity") ** 2 / 2
 
 
 @concerning(
@@ -29,10 +29,10 @@ def impact_pressure(audit: Results) -> Fraction:
     "beta-range-greatest",
     "depth-beta-5-beta",
 )
-def beta_and_flow_stress(audit: Results) -> Finding:
+def beta_and_flow_stress(results: Results) -> Finding:
     """Beta was computed for one flow stress and multiplied by another."""
-    text, Y_t = audit.text, audit.exact("flow-stress")
-    cube_at_grains = 2 * audit.exact("elastic-modulus") / (3 * Y_t)
+    text, Y_t = results.text, results.exact("flow-stress")
+    cube_at_grains = 2 * results.exact("elastic-modulus") / (3 * Y_t)
     alpha_at_grains = cbrt(cube_at_grains)
     beta_at_grains = 7 / 3 * log(alpha_at_grains)
     resistance_at_grains = beta_at_grains * Y_t
@@ -42,11 +42,11 @@ def beta_and_flow_stress(audit: Results) -> Finding:
         "resistance", "2.86", resistance_at_grains, "GPa", "R_t with that beta at 700 MPa"
     )
     ratio = prints(
-        "ratio", "0.776", exact_ratio(case(audit, 5, resistance=float(resistance_at_grains))), "1",
-        "exact X/R with that R_t",
+        "ratio", "0.776", exact_ratio(case(results, 5, resistance=float(resistance_at_grains))),
+        "1", "exact X/R with that R_t",
     )  # fmt: skip
     cavity_bulk = prints(
-        "cavity_bulk", "4.95", 2 / 3 + 2 * log(audit.computed("walker-anderson-alpha")), "1",
+        "cavity_bulk", "4.95", 2 / 3 + 2 * log(results.computed("walker-anderson-alpha")), "1",
         "pressure of Hill's spherical cavity over flow stress, 215 MPa",
     )  # fmt: skip
     cavity = prints("cavity", "4.17", 2 / 3 + 2 * log(alpha_at_grains), "1", "the same at 700 MPa")
@@ -78,12 +78,12 @@ def beta_and_flow_stress(audit: Results) -> Finding:
 
 
 @concerning("ratio-beta-3", "ratio-beta-5", "observed-ratio")
-def inertia_term(audit: Results) -> Finding:
+def inertia_term(results: Results) -> Finding:
     """What the drag of Eq. 13 does to the depth."""
-    text = audit.text
-    energy = audit.exact("a1-density") * audit.exact("a1-initial-velocity") ** 2 / 2
-    without = {beta: constant_pressure_ratio(case(audit, beta)) for beta in (3, 5)}
-    with_drag = {beta: exact_ratio(case(audit, beta)) for beta in (3, 5)}
+    text = results.text
+    energy = results.exact("a1-density") * results.exact("a1-initial-velocity") ** 2 / 2
+    without = {beta: constant_pressure_ratio(case(results, beta)) for beta in (3, 5)}
+    with_drag = {beta: exact_ratio(case(results, beta)) for beta in (3, 5)}
     pressed_5 = prints(
         "pressed_5", "0.752", without[5], "1", "X/R at the constant pressure R_t, beta = 5"
     )
@@ -98,7 +98,7 @@ def inertia_term(audit: Results) -> Finding:
         "price_3", "12", 1 - with_drag[3] / without[3], "percent", "the same, beta = 3"
     )
     work = prints(
-        "work", "0.318", energy / resistances(audit)[5], "1",
+        "work", "0.318", energy / resistances(results)[5], "1",
         "CV/PV at the constant pressure R_t, beta = 5",
     )  # fmt: skip
     steps = (
@@ -125,11 +125,11 @@ def inertia_term(audit: Results) -> Finding:
 
 
 @concerning("observed-ratio", "beta-range-greatest", "depth-beta-5-beta", "flow-stress")
-def observed_beta(audit: Results) -> Finding:
+def observed_beta(results: Results) -> Finding:
     """Which beta the observed depth would need."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     observed = exact("observed-ratio")
-    least_ratio, greatest_ratio = audit.ledger.claims["observed-ratio"].target().ends
+    least_ratio, greatest_ratio = results.ledger.claims["observed-ratio"].target().ends
     Y_t, V = exact("flow-stress"), exact("a1-initial-velocity")
 
     def pressure_ratio(y: Fraction) -> float:
@@ -137,7 +137,7 @@ def observed_beta(audit: Results) -> Finding:
         return expm1(y**2 * (3 - y) / 4 * exact(DENSITY) / exact("a1-density"))
 
     def beta_for(y: Fraction) -> float:
-        return float(impact_pressure(audit) / Y_t) / pressure_ratio(y)
+        return float(impact_pressure(results) / Y_t) / pressure_ratio(y)
 
     beta = prints("beta", "25", beta_for(observed), "1", "beta at which the exact X/R is 0.3")
     resistance = prints(
@@ -185,22 +185,22 @@ def observed_beta(audit: Results) -> Finding:
     )
 
 
-def johnson_cook_copper(audit: Results) -> float:
+def johnson_cook_copper(results: Results) -> float:
     """Johnson and Cook's flow stress of copper [Pa] at a strain of one, unheated.
 
     The strain rate is that which the report estimates, 10^7 per second, far beyond the law's fit.
     """
-    at_strain_1 = audit["copper-johnson-cook"] + audit["copper-johnson-cook-hardening"]
-    return at_strain_1 * (1 + audit["copper-johnson-cook-rate"] * log(audit["strain-rate"]))
+    at_strain_1 = results["copper-johnson-cook"] + results["copper-johnson-cook-hardening"]
+    return at_strain_1 * (1 + results["copper-johnson-cook-rate"] * log(results["strain-rate"]))
 
 
 @concerning("copper-yield", "copper-yield-bound", "a1-resistance", "eq6")
-def rigid_strength(audit: Results) -> Finding:
+def rigid_strength(results: Results) -> Finding:
     """A rigid particle needs far more strength than the copper has."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     Y_p = exact("copper-yield")
-    stress = {beta: impact_pressure(audit) + R_t for beta, R_t in resistances(audit).items()}
-    johnson_cook = johnson_cook_copper(audit)
+    stress = {beta: impact_pressure(results) + R_t for beta, R_t in resistances(results).items()}
+    johnson_cook = johnson_cook_copper(results)
     sigma_5 = prints("sigma_5", "4.48", stress[5], "GPa", "Sigma at 500 m/s, beta = 5")
     sigma_3 = prints("sigma_3", "3.08", stress[3], "GPa", "Sigma at 500 m/s, beta = 3")
     multiple_5 = prints(
@@ -209,7 +209,9 @@ def rigid_strength(audit: Results) -> Finding:
     multiple_3 = prints(
         "multiple_3", "34", stress[3] / Y_p, "1", "Sigma over the copper's yield strength, beta = 3"
     )
-    pressure = prints("pressure", "0.981", impact_pressure(audit), "GPa", "rho_t V^2/2 at 500 m/s")
+    pressure = prints(
+        "pressure", "0.981", impact_pressure(results), "GPa", "rho_t V^2/2 at 500 m/s"
+    )
     fast = prints(
         "fast", "536", johnson_cook, "MPa",
         "Johnson-Cook flow stress of copper at strain 1 and 10^7 per second",
@@ -253,9 +255,9 @@ def rigid_strength(audit: Results) -> Finding:
     "strength-multiple",
     "yield-strength",
 )
-def strengths(audit: Results) -> Finding:
+def strengths(results: Results) -> Finding:
     """Y_t stands for different kinds of strength."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     Y_t, S_clear, S_feathery = (
         exact(name) for name in ("flow-stress", "strength-clear", "strength-feathery")
     )

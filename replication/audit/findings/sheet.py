@@ -24,7 +24,7 @@ from replication.audit.results import Results, case
 from replication.models import depth, sheet
 
 
-def observed_order(audit: Results, scheme: Scheme) -> float:
+def observed_order(results: Results, scheme: Scheme) -> float:
     """Return the observed order of the error at one instant, from two time steps, for beta = 5.
 
     At 10 ns the particle is still fast, so that the stop rule has no influence. The steps are the
@@ -32,7 +32,7 @@ def observed_order(audit: Results, scheme: Scheme) -> float:
     """
     instant, errors = 10e-9, []
     for parts in (1, 2):
-        impact = case(audit, 5, step=audit["a-step"] / parts)
+        impact = case(results, 5, step=results["a-step"] / parts)
         row = sheet.run(impact, scheme).rows[round(instant / impact.step)]
         assert row.velocity_final is not None
         # The row's depth is that half a step before its final velocity.
@@ -41,28 +41,28 @@ def observed_order(audit: Results, scheme: Scheme) -> float:
     return math.log2(errors[0] / errors[1])
 
 
-def first_difference(audit: Results) -> int:
+def first_difference(results: Results) -> int:
     """Return the first row in which the schemes' decelerations differ in three digits."""
-    plain, middle = (sheet.run(case(audit, 5), scheme).rows for scheme in Scheme)
+    plain, middle = (sheet.run(case(results, 5), scheme).rows for scheme in Scheme)
     for number, (row, row_middle) in enumerate(zip(plain, middle, strict=False)):
         if f"{row.deceleration:.2E}" != f"{row_middle.deceleration:.2E}":
             return number
     raise ValueError("the two schemes print the same decelerations in every row")
 
 
-def least_middle_density(audit: Results) -> Fraction:
+def least_middle_density(results: Results) -> Fraction:
     """Return the least target density with which drag at the middle velocity gives that depth."""
-    claim = audit.ledger.claims["depth-beta-5"]
-    printed = {name: audit.ledger.value(name) for name in claim.stated}
-    function = audit.ledger.function(claim, scheme=Scheme.CENTERED)
-    admitted = audit.judge.inference(DENSITY, scheme=Scheme.CENTERED).outer.ends
+    claim = results.ledger.claims["depth-beta-5"]
+    printed = {name: results.ledger.value(name) for name in claim.stated}
+    function = results.ledger.function(claim, scheme=Scheme.CENTERED)
+    admitted = results.judge.inference(DENSITY, scheme=Scheme.CENTERED).outer.ends
     solutions = find_solutions(function, DENSITY, admitted, claim.target(), SHEET_BUDGET, printed)
     return solutions.outer[0][0]
 
 
-def depth_by_sheet(audit: Results, beta: int, scheme: Scheme, step: str = "a-step") -> float:
+def depth_by_sheet(results: Results, beta: int, scheme: Scheme, step: str = "a-step") -> float:
     """Return the sheet's final depth [m] for a beta of the report; the claim gives the step."""
-    return sheet.run(case(audit, beta, step=audit[step]), scheme).final_depth
+    return sheet.run(case(results, beta, step=results[step]), scheme).final_depth
 
 
 class OrderNumbers(NamedTuple):
@@ -73,19 +73,19 @@ class OrderNumbers(NamedTuple):
     table: Evidence
 
 
-def orders_of_schemes(audit: Results) -> OrderNumbers:
+def orders_of_schemes(results: Results) -> OrderNumbers:
     """Return the observed order of both schemes, and whether both give every cell of Table A-1."""
     plain = prints(
-        "order_plain", "1.0", observed_order(audit, Scheme.PUBLISHED), "1",
+        "order_plain", "1.0", observed_order(results, Scheme.PUBLISHED), "1",
         "observed order of the time-step error, drag at the initial velocity, 0.2 to 0.1 ns",
     )  # fmt: skip
     middle = prints(
-        "order_middle", "2.0", observed_order(audit, Scheme.CENTERED), "1",
+        "order_middle", "2.0", observed_order(results, Scheme.CENTERED), "1",
         "observed order of the time-step error, drag at the middle velocity, 0.2 to 0.1 ns",
     )  # fmt: skip
     cells = [
         claim
-        for claim in audit.ledger.claims.values()
+        for claim in results.ledger.claims.values()
         if claim.is_computed and claim.id.startswith(("a1-deceleration-", "a1-velocity-"))
     ]
     table = proves(
@@ -93,7 +93,7 @@ def orders_of_schemes(audit: Results) -> OrderNumbers:
         {
             judgement.verdict
             for claim in cells
-            for reading in audit.judge.assess(claim).readings
+            for reading in results.judge.assess(claim).readings
             for judgement in reading.judgements
             if judgement.convention.rounding is Rounding.AWAY
         }
@@ -107,9 +107,9 @@ Depths = Mapping[tuple[int, Scheme], float]
 """The sheet's final depth [m] by beta and scheme."""
 
 
-def depths_by_sheet(audit: Results, step: str) -> Depths:
+def depths_by_sheet(results: Results, step: str) -> Depths:
     """Return the final depths of both cases by both schemes; the claim gives the step."""
-    return {(b, s): depth_by_sheet(audit, b, s, step) for b in (3, 5) for s in Scheme}
+    return {(b, s): depth_by_sheet(results, b, s, step) for b in (3, 5) for s in Scheme}
 
 
 class DepthNumbers(NamedTuple):
@@ -203,10 +203,10 @@ class RowNumbers(NamedTuple):
     middle: Evidence
 
 
-def row_that_differs(audit: Results) -> RowNumbers:
+def row_that_differs(results: Results) -> RowNumbers:
     """Return the first row whose deceleration the schemes print otherwise, and both."""
-    first = first_difference(audit)
-    rows = {scheme: sheet.run(case(audit, 5), scheme).rows[first] for scheme in Scheme}
+    first = first_difference(results)
+    rows = {scheme: sheet.run(case(results, 5), scheme).rows[first] for scheme in Scheme}
     number = equals(
         "row", "12", first, "1",
         "first row whose deceleration prints otherwise, beta = 5, 7850 kg/m^3",
@@ -232,10 +232,10 @@ class ExactNumbers(NamedTuple):
     exact_5: Evidence
 
 
-def short_of_exact(audit: Results, fine: Depths, coarse: Depths) -> ExactNumbers:
+def short_of_exact(results: Results, fine: Depths, coarse: Depths) -> ExactNumbers:
     """Return the exact depths, and by how much the sheet's, drag at the initial velocity, fail."""
     plain = Scheme.PUBLISHED
-    rest = {b: depth.final_depth(**case(audit, b).motion) for b in (3, 5)}
+    rest = {b: depth.final_depth(**case(results, b).motion) for b in (3, 5)}
     short_3 = prints(
         "short_3", "8.80", rest[3] - fine[3, plain], "nm",
         "exact depth at rest minus the sheet's at 0.2 ns, beta = 3",
@@ -256,22 +256,22 @@ def short_of_exact(audit: Results, fine: Depths, coarse: Depths) -> ExactNumbers
 @concerning(
     "depth-beta-3", "depth-beta-5", "coarse-step-remark", "a-half-step", "a-step", "coarse-step"
 )
-def two_schemes(audit: Results) -> Finding:
+def two_schemes(results: Results) -> Finding:
     """The appendix does not say at which velocity of a step the drag is taken."""
-    text, orders = audit.text, orders_of_schemes(audit)
-    fine, coarse = depths_by_sheet(audit, "a-step"), depths_by_sheet(audit, "coarse-step")
+    text, orders = results.text, orders_of_schemes(results)
+    fine, coarse = depths_by_sheet(results, "a-step"), depths_by_sheet(results, "coarse-step")
     reached, change = depths_of_schemes(fine, coarse), changes_by_step(fine, coarse)
-    row, at_rest = row_that_differs(audit), short_of_exact(audit, fine, coarse)
+    row, at_rest = row_that_differs(results), short_of_exact(results, fine, coarse)
     middle_density = prints(
-        "middle_density", "7848.4", least_middle_density(audit), "kg/m^3",
+        "middle_density", "7848.4", least_middle_density(results), "kg/m^3",
         "density above which the drag at the middle velocity gives the printed depth, beta = 5",
     )  # fmt: skip
-    density = audit.exact("carbon-steel-density")
+    density = results.exact("carbon-steel-density")
     steps = (
         calculated("0.3736", 4 * 8900 / (3 * density) * math.log(1 + 0.98125 / 3.5)),
         calculated("0.3736", 0.6977**2 - 0.6977**3 / 3),
         calculated("7.675", 0.69772 * 11),
-        calculated("13.4", 5.376 * (audit["coarse-step"] / audit["a-step"])),
+        calculated("13.4", 5.376 * (results["coarse-step"] / results["a-step"])),
         calculated("7.660", 7.6749 - 0.0146),
     )
     return conclude(
@@ -312,9 +312,9 @@ def two_schemes(audit: Results) -> Finding:
     )  # fmt: skip
 
 
-def velocity_if_added(audit: Results) -> float:
+def velocity_if_added(results: Results) -> float:
     """Return the velocity after three rows of a sheet that adds a dt instead of subtracting it."""
-    impact = case(audit, 5)
+    impact = case(results, 5)
     fixed = (impact.radius, impact.mass, impact.target_density, impact.target_resistance)
     x, v = 0.0, impact.velocity
     for row in range(3):
@@ -332,19 +332,19 @@ def velocity_if_added(audit: Results) -> float:
     "a1-deceleration-3",
     "a1-velocity-final-3",
 )
-def table_columns(audit: Results) -> Finding:
+def table_columns(results: Results) -> Finding:
     """The columns of Table A-1 do not hold what their heads and their times suggest."""
-    text = audit.text
+    text = results.text
     reached = prints(
-        "exact", "1.00E-07", audit.exact("a1-initial-velocity") * audit.exact("a1-time-1"), "m",
+        "exact", "1.00E-07", results.exact("a1-initial-velocity") * results.exact("a1-time-1"), "m",
         "V times the time of row 1",
     )  # fmt: skip
     plus = prints(
-        "plus", "500.56", velocity_if_added(audit), "m/s",
+        "plus", "500.56", velocity_if_added(results), "m/s",
         "final velocity of row 3 if the accelerations were added",
     )  # fmt: skip
     minus = prints(
-        "minus", "499.44", audit.computed("a1-velocity-final-3"), "m/s",
+        "minus", "499.44", results.computed("a1-velocity-final-3"), "m/s",
         "final velocity of row 3 as they are subtracted",
     )  # fmt: skip
     steps = (
