@@ -8,11 +8,13 @@ from reference.printed import decimal_text
 from reference.units import to_si
 from replication.audit.assessment import Reading, Verdict
 from replication.audit.explain import Explainer
+from replication.audit.inference import DENSITY
 from replication.audit.slips import slips_tried
 from replication.audit.verdict import Judge
 from replication.models import depth
 from replication.models.estimates import constant_pressure_depth
 from replication.models.impact import Impact
+from replication.text import number
 
 DERIVED = "derived from Eqs. 14 and 15"
 """The name of the reading of Eq. 16 that does not take it as printed."""
@@ -93,6 +95,16 @@ def of_beta(results: Results, beta: int) -> str:
     'beta = 5'
     """
     return f"beta = {results.text(f'depth-beta-{beta}-beta')}"
+
+
+def density_taken(results: Results) -> str:
+    """Return the target density with which the audit computes, in words.
+
+    >>> from reference.ledger import load
+    >>> density_taken(Results(load()))
+    '7850 kg/m^3'
+    """
+    return f"{number(results.exact(DENSITY))} kg/m^3"
 
 
 def exact_ratio(impact: Impact) -> float:

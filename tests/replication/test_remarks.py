@@ -1,6 +1,7 @@
 """The figures by which a reader judges what the report says of its results in words."""
 
 import re
+from functools import cache
 from math import log, pi
 
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from reference.ledger import load
 from replication.audit import comparison
 from replication.audit.audit import Audit
+from replication.audit.findings import findings
 from replication.audit.remarks import REMARKS, figures
 from replication.audit.results import Results
 
@@ -221,12 +223,18 @@ OF_THE_AUDIT = {"1", "100", "10,000"}
 """Not of the report: a strain and a rate of one, "less 1", and what a public source prints."""
 
 
-def test_no_label_has_a_number_that_the_report_does_not_print() -> None:
-    """A label names the numbers with which its figure is computed, misprints included."""
+@cache
+def misprinted() -> Results:
+    """The results of the report with all of these misprints."""
     ledger = LEDGER
     for name, text in MISPRINTED.items():
         ledger = ledger.misprint(name, text)
-    results = Results(ledger, every_convention=False)
+    return Results(ledger, every_convention=False)
+
+
+def test_no_label_has_a_number_that_the_report_does_not_print() -> None:
+    """A label names the numbers with which its figure is computed, misprints included."""
+    results = misprinted()
     labels = [figure.means for remark in REMARKS.values() for figure in remark(results)]
     labels += [approach.name for approach in comparison.approaches(results)]
     known = {number for text in MISPRINTED.values() for number in NUMBER.findall(text)}
@@ -235,6 +243,17 @@ def test_no_label_has_a_number_that_the_report_does_not_print() -> None:
         assert named <= known | DERIVED_NUMBERS | OF_THE_AUDIT, label
     every = " ".join(labels)
     assert [text for text in MISPRINTED.values() if NUMBER.search(text)[0] not in every] == []
+
+
+def test_no_label_of_a_finding_has_a_velocity_that_the_report_does_not_print() -> None:
+    """Findings without a value are those on the report itself; quotations are of its text."""
+    changed = [LEDGER.claims[name] for name in MISPRINTED]
+    velocities = {claim.text for claim in changed if claim.unit == "m/s"}
+    numbers = [number for made in findings(misprinted()) for number in made.evidence]
+    labels = [number.means for number in numbers if number.computed is not None]
+    stale = [label for label in labels if velocities & set(NUMBER.findall(label))]
+    assert [label for label in stale if "the text says '" not in label] == []
+    assert any("523 m/s" in label for label in labels)
 
 
 NUMBER = re.compile(r"\d+(?:[.,]\d+)*")

@@ -206,7 +206,7 @@ def target_density(results: Results) -> Finding:
     )  # fmt: skip
     carbon = proves(
         "carbon", admits(results, "carbon-steel-density", Admission.ADMITTED),
-        "7850 is admitted, header as printed but the sphere's mass",
+        f"{text('carbon-steel-density')} is admitted, header as printed but the sphere's mass",
     )  # fmt: skip
     depths = proves(
         "depths",

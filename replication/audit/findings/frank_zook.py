@@ -20,7 +20,7 @@ from replication.audit.findings.evidence import (
 )
 from replication.audit.inference import DENSITY
 from replication.audit.record import Finding
-from replication.audit.results import DERIVED, Results, case, exact_ratio
+from replication.audit.results import DERIVED, Results, case, density_taken, exact_ratio
 
 RISE = {
     "k_t": "fz-kt",
@@ -187,11 +187,12 @@ def frank_zook_pair(results: Results) -> Finding:
         "greatest rise of two numbers that print so",
     )
     z = prints(
-        "z", "2.053", drag(results), "GPa", "k_t rho_t V^2 at the inputs as printed and 7850 kg/m^3"
-    )
+        "z", "2.053", drag(results), "GPa",
+        f"k_t rho_t V^2 at the inputs as printed and {density_taken(results)}",
+    )  # fmt: skip
     limit = at_least(
         "limit", "2975", common_velocity(results), "m/s",
-        "velocity below which this holds, both R_t and k_t rounded, 7850 kg/m^3",
+        f"velocity below which this holds, both R_t and k_t rounded, {density_taken(results)}",
     )  # fmt: skip
     density = equals("density", "7850", exact(DENSITY), "kg/m^3", "target density taken there")
     ratio = calculated("1.179", log1p(2.053 / (R_low / 10**9)) / log1p(2.053 / (R_t / 10**9)))

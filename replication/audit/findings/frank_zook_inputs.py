@@ -20,8 +20,9 @@ from replication.audit.findings.evidence import (
 from replication.audit.findings.frank_zook import derived_ratio, drag, inertia
 from replication.audit.inference import DENSITY
 from replication.audit.record import Evidence, Finding
-from replication.audit.results import DERIVED, Results
+from replication.audit.results import DERIVED, Results, density_taken
 from replication.audit.slips import EVERY_DENSITY
+from replication.text import number
 
 
 def input_needed(results: Results, claim: str, entry: str) -> Fraction:
@@ -117,8 +118,8 @@ def derived_for_stainless(results: Results) -> DerivedNumbers:
     )  # fmt: skip
     least_admitted = at_least(
         "least_admitted", "0.2979", enclose(function, admitted).ends[0], "1",
-        "proven least X/R with that R_t rounded, 500 m/s exact, and a density that the header as "
-        "printed admits",
+        f"proven least X/R with that R_t rounded, {results.text('a1-initial-velocity')} m/s exact, "
+        "and a density that the header as printed admits",
     )  # fmt: skip
     return DerivedNumbers(derived, off, least_exact, least_admitted)
 
@@ -158,15 +159,16 @@ def resistances_for_stainless(results: Results) -> ResistanceNumbers:
     R_nearest = nearest_resistance(results, digit)
     nearest = prints(
         "nearest", "7.7", R_nearest, "GPa",
-        "R_t on a grid of 0.1 GPa whose X/R is nearest to the observed one",
+        f"R_t on a grid of {number(digit / 10**9)} GPa whose X/R is nearest to the observed one",
     )  # fmt: skip
     after = prints(
-        "next", "0.2966", derived_ratio(results, R_nearest), "1", "X/R with an R_t 0.1 GPa higher"
-    )
+        "next", "0.2966", derived_ratio(results, R_nearest), "1",
+        f"X/R with an R_t {number(digit / 10**9)} GPa higher",
+    )  # fmt: skip
     three_digits = Fraction(f"{X_R:.2e}")
     back = prints(
         "back", "7.603", z / expm1(three_digits * k_t / sum_), "GPa",
-        "R_t that gives X/R = 0.300, derived form",
+        f"R_t that gives X/R = {float(three_digits):.3f}, derived form",
     )  # fmt: skip
     return ResistanceNumbers(grid, corner, needed, nearest, after, back)
 
@@ -273,7 +275,9 @@ def slips_by_density(results: Results) -> TakenNumbers:
         )
         for name, (_, fitting) in tried.items()
     }
-    rha = equals("taken_rha", "1", at_taken["rha"], "1", "those that do at 7850 kg/m^3")
+    rha = equals(
+        "taken_rha", "1", at_taken["rha"], "1", f"those that do at {density_taken(results)}"
+    )
     stainless = equals(
         "taken_stainless", "2", at_taken["stainless"], "1", "the same, stainless steel"
     )
@@ -308,7 +312,8 @@ def single_slips(results: Results) -> SingleSlipNumbers:
     )
     multiplied = prints(
         "multiplied", "0.278503", multiplied_rha, "1",
-        "Eq. 16 with /2*k_t typed without brackets and X/R twice X/D, armor, 7850 kg/m^3",
+        "Eq. 16 with /2*k_t typed without brackets and X/R twice X/D, armor, "
+        f"{density_taken(results)}",
     )  # fmt: skip
     multiplied_other = prints(
         "multiplied_other", "0.328", multiplied_stainless, "1", "the same, stainless steel"

@@ -33,8 +33,9 @@ def no_penetration(results: Results) -> Finding:
     )
     pressure = results["a1-density"] * V**2 / 2
     stress = prints(
-        "stress", "1.20", pressure + Y_p, "GPa", "rho_p V^2/2 + Y_p of the copper at 500 m/s"
-    )
+        "stress", "1.20", pressure + Y_p, "GPa",
+        f"rho_p V^2/2 + Y_p of the copper at {text('a1-initial-velocity')} m/s",
+    )  # fmt: skip
     low = prints("low", "2.1", R_t[3], "GPa", "R_t for beta = 3")
     high = prints("high", "3.5", R_t[5], "GPa", "R_t for beta = 5")
     threshold_3 = prints(
@@ -46,7 +47,8 @@ def no_penetration(results: Results) -> Finding:
     )
     fast = prints(
         "fast", "536", Y_fast, "MPa",
-        "Johnson-Cook flow stress of copper at strain 1 and 10^7 per second",
+        "Johnson-Cook flow stress of copper at strain 1 and "
+        f"{results.ledger.claims['strain-rate'].text} per second",
     )  # fmt: skip
     fast_3 = prints(
         "fast_3", "593", threshold(results, R_t[3], Y_fast), "m/s",

@@ -8,6 +8,7 @@ from replication.audit.findings.evidence import calculated, concerning, conclude
 from replication.audit.inference import DENSITY
 from replication.audit.record import Finding
 from replication.audit.results import Results, case, constant_pressure_ratio, exact_ratio
+from replication.text import number
 
 
 def resistances(results: Results) -> dict[int, Fraction]:
@@ -32,14 +33,15 @@ def impact_pressure(results: Results) -> Fraction:
 def beta_and_flow_stress(results: Results) -> Finding:
     """Beta was computed for one flow stress and multiplied by another."""
     text, Y_t = results.text, results.exact("flow-stress")
+    grains = text("flow-stress")
     cube_at_grains = 2 * results.exact("elastic-modulus") / (3 * Y_t)
     alpha_at_grains = cbrt(cube_at_grains)
     beta_at_grains = 7 / 3 * log(alpha_at_grains)
     resistance_at_grains = beta_at_grains * Y_t
-    alpha = prints("alpha", "5.75", alpha_at_grains, "1", "alpha at 700 MPa")
-    beta = prints("beta", "4.08", beta_at_grains, "1", "beta at 700 MPa")
+    alpha = prints("alpha", "5.75", alpha_at_grains, "1", f"alpha at {grains} MPa")
+    beta = prints("beta", "4.08", beta_at_grains, "1", f"beta at {grains} MPa")
     resistance = prints(
-        "resistance", "2.86", resistance_at_grains, "GPa", "R_t with that beta at 700 MPa"
+        "resistance", "2.86", resistance_at_grains, "GPa", f"R_t with that beta at {grains} MPa"
     )
     ratio = prints(
         "ratio", "0.776", exact_ratio(case(results, 5, resistance=float(resistance_at_grains))),
@@ -47,10 +49,12 @@ def beta_and_flow_stress(results: Results) -> Finding:
     )  # fmt: skip
     cavity_bulk = prints(
         "cavity_bulk", "4.95", 2 / 3 + 2 * log(results.computed("walker-anderson-alpha")), "1",
-        "pressure of Hill's spherical cavity over flow stress, 215 MPa",
+        f"pressure of Hill's spherical cavity over flow stress, {text('yield-strength')} MPa",
     )  # fmt: skip
-    cavity = prints("cavity", "4.17", 2 / 3 + 2 * log(alpha_at_grains), "1", "the same at 700 MPa")
-    cube = prints("cube", "190.5", cube_at_grains, "1", "alpha^3 at 700 MPa")
+    cavity = prints(
+        "cavity", "4.17", 2 / 3 + 2 * log(alpha_at_grains), "1", f"the same at {grains} MPa"
+    )
+    cube = prints("cube", "190.5", cube_at_grains, "1", f"alpha^3 at {grains} MPa")
     steps = (calculated("190.5", cube_at_grains), calculated("4.08", 7 / 9 * log(190.48)))
     return conclude(
         "beta-and-flow-stress",
@@ -128,7 +132,7 @@ def inertia_term(results: Results) -> Finding:
 def observed_beta(results: Results) -> Finding:
     """Which beta the observed depth would need."""
     text, exact = results.text, results.exact
-    observed = exact("observed-ratio")
+    observed, y = exact("observed-ratio"), text("observed-ratio")
     least_ratio, greatest_ratio = results.ledger.claims["observed-ratio"].target().ends
     Y_t, V = exact("flow-stress"), exact("a1-initial-velocity")
 
@@ -139,32 +143,33 @@ def observed_beta(results: Results) -> Finding:
     def beta_for(y: Fraction) -> float:
         return float(impact_pressure(results) / Y_t) / pressure_ratio(y)
 
-    beta = prints("beta", "25", beta_for(observed), "1", "beta at which the exact X/R is 0.3")
+    beta = prints("beta", "25", beta_for(observed), "1", f"beta at which the exact X/R is {y}")
     resistance = prints(
-        "resistance", "18", beta_for(observed) * Y_t, "GPa", "R_t at which the exact X/R is 0.3"
+        "resistance", "18", beta_for(observed) * Y_t, "GPa", f"R_t at which the exact X/R is {y}"
     )
     beta_least = prints(
-        "beta_least", "19", beta_for(greatest_ratio), "1", "beta at which the exact X/R is 0.35"
-    )
+        "beta_least", "19", beta_for(greatest_ratio), "1",
+        f"beta at which the exact X/R is {number(greatest_ratio)}",
+    )  # fmt: skip
     beta_greatest = prints(
-        "beta_greatest", "36", beta_for(least_ratio), "1", "beta at which the exact X/R is 0.25"
-    )
+        "beta_greatest", "36", beta_for(least_ratio), "1",
+        f"beta at which the exact X/R is {number(least_ratio)}",
+    )  # fmt: skip
     velocity = prints(
         "velocity", "222", V * sqrt(exact("depth-beta-5-beta") / beta_for(observed)), "m/s",
-        "impact velocity at which the exact X/R is 0.3, beta = 5",
+        f"impact velocity at which the exact X/R is {y}, beta = 5",
     )  # fmt: skip
     p = prints(
         "p", "0.0550", pressure_ratio(observed), "1",
-        "rho_t V^2 / 2 R_t at which the exact X/R is 0.3",
+        f"rho_t V^2 / 2 R_t at which the exact X/R is {y}",
     )  # fmt: skip
-    left = prints("left", "0.081", observed**2 - observed**3 / 3, "1", "y^2 - y^3/3 at y = 0.3")
+    left = prints("left", "0.081", observed**2 - observed**3 / 3, "1", f"y^2 - y^3/3 at y = {y}")
     density = exact("carbon-steel-density")
     steps = (
         calculated("0.081", observed**2 - observed**3 / 3),
         calculated("0.081", 4 * 8900 / (3 * density) * log(1 + 0.0550)),
         calculated("18", 0.98125 / 0.0550),
     )
-    y = text("observed-ratio")
     return conclude(
         "observed-beta",
         "method",
@@ -198,11 +203,12 @@ def johnson_cook_copper(results: Results) -> float:
 def rigid_strength(results: Results) -> Finding:
     """A rigid particle needs far more strength than the copper has."""
     text, exact = results.text, results.exact
-    Y_p = exact("copper-yield")
+    Y_p, V = exact("copper-yield"), text("a1-initial-velocity")
     stress = {beta: impact_pressure(results) + R_t for beta, R_t in resistances(results).items()}
     johnson_cook = johnson_cook_copper(results)
-    sigma_5 = prints("sigma_5", "4.48", stress[5], "GPa", "Sigma at 500 m/s, beta = 5")
-    sigma_3 = prints("sigma_3", "3.08", stress[3], "GPa", "Sigma at 500 m/s, beta = 3")
+    rate = results.ledger.claims["strain-rate"].text
+    sigma_5 = prints("sigma_5", "4.48", stress[5], "GPa", f"Sigma at {V} m/s, beta = 5")
+    sigma_3 = prints("sigma_3", "3.08", stress[3], "GPa", f"Sigma at {V} m/s, beta = 3")
     multiple_5 = prints(
         "multiple_5", "50", stress[5] / Y_p, "1", "Sigma over the copper's yield strength, beta = 5"
     )
@@ -210,11 +216,11 @@ def rigid_strength(results: Results) -> Finding:
         "multiple_3", "34", stress[3] / Y_p, "1", "Sigma over the copper's yield strength, beta = 3"
     )
     pressure = prints(
-        "pressure", "0.981", impact_pressure(results), "GPa", "rho_t V^2/2 at 500 m/s"
+        "pressure", "0.981", impact_pressure(results), "GPa", f"rho_t V^2/2 at {V} m/s"
     )
     fast = prints(
         "fast", "536", johnson_cook, "MPa",
-        "Johnson-Cook flow stress of copper at strain 1 and 10^7 per second",
+        f"Johnson-Cook flow stress of copper at strain 1 and {rate} per second",
     )  # fmt: skip
     short_5 = prints("short_5", "8", stress[5] / johnson_cook, "1", "Sigma over that, beta = 5")
     short_3 = prints("short_3", "6", stress[3] / johnson_cook, "1", "Sigma over that, beta = 3")

@@ -6,8 +6,9 @@ from fractions import Fraction
 from typing import NamedTuple
 
 from reference.enclosure import find_solutions
-from reference.printed import Rounding
+from reference.printed import Rounding, decimal_text
 from reference.scheme import Scheme
+from reference.units import to_si
 from replication.audit.assessment import Verdict
 from replication.audit.explain import SHEET_BUDGET
 from replication.audit.findings.evidence import (
@@ -20,7 +21,7 @@ from replication.audit.findings.evidence import (
 )
 from replication.audit.inference import DENSITY
 from replication.audit.record import Evidence, Finding
-from replication.audit.results import Results, case
+from replication.audit.results import Results, case, density_taken
 from replication.models import depth, sheet
 
 
@@ -75,13 +76,15 @@ class OrderNumbers(NamedTuple):
 
 def orders_of_schemes(results: Results) -> OrderNumbers:
     """Return the observed order of both schemes, and whether both give every cell of Table A-1."""
+    half = decimal_text(results.exact("a-step") / 2 / to_si("ns"))
+    steps = f"{results.text('a-step')} to {half} ns"
     plain = prints(
         "order_plain", "1.0", observed_order(results, Scheme.PUBLISHED), "1",
-        "observed order of the time-step error, drag at the initial velocity, 0.2 to 0.1 ns",
+        f"observed order of the time-step error, drag at the initial velocity, {steps}",
     )  # fmt: skip
     middle = prints(
         "order_middle", "2.0", observed_order(results, Scheme.CENTERED), "1",
-        "observed order of the time-step error, drag at the middle velocity, 0.2 to 0.1 ns",
+        f"observed order of the time-step error, drag at the middle velocity, {steps}",
     )  # fmt: skip
     cells = [
         claim
@@ -125,29 +128,30 @@ class DepthNumbers(NamedTuple):
     middle_coarse_5: Evidence
 
 
-def depths_of_schemes(fine: Depths, coarse: Depths) -> DepthNumbers:
+def depths_of_schemes(results: Results, fine: Depths, coarse: Depths) -> DepthNumbers:
     """Return the final depths with a fine and a coarse time step."""
+    fine_step, coarse_step = results.text("a-step"), results.text("coarse-step")
     plain, middle = Scheme.PUBLISHED, Scheme.CENTERED
     plain_fine_3 = prints(
         "plain_fine_3", "10.031", fine[3, plain], "um",
-        "final depth at 0.2 ns, beta = 3, drag at the initial velocity",
+        f"final depth at {fine_step} ns, beta = 3, drag at the initial velocity",
     )  # fmt: skip
     plain_fine_5 = prints("plain_fine_5", "7.6696", fine[5, plain], "um", "the same, beta = 5")
     plain_coarse_3 = prints(
         "plain_coarse_3", "10.017", coarse[3, plain], "um",
-        "final depth at 0.5 ns, beta = 3, drag at the initial velocity",
+        f"final depth at {coarse_step} ns, beta = 3, drag at the initial velocity",
     )  # fmt: skip
     plain_coarse_5 = prints(
         "plain_coarse_5", "7.6603", coarse[5, plain], "um", "the same, beta = 5"
     )
     middle_fine_3 = prints(
         "middle_fine_3", "10.039", fine[3, middle], "um",
-        "final depth at 0.2 ns, beta = 3, drag at the middle velocity",
+        f"final depth at {fine_step} ns, beta = 3, drag at the middle velocity",
     )  # fmt: skip
     middle_fine_5 = prints("middle_fine_5", "7.6749", fine[5, middle], "um", "the same, beta = 5")
     middle_coarse_3 = prints(
         "middle_coarse_3", "10.039", coarse[3, middle], "um",
-        "final depth at 0.5 ns, beta = 3, drag at the middle velocity",
+        f"final depth at {coarse_step} ns, beta = 3, drag at the middle velocity",
     )  # fmt: skip
     middle_coarse_5 = prints(
         "middle_coarse_5", "7.6744", coarse[5, middle], "um", "the same, beta = 5"
@@ -169,12 +173,14 @@ class ChangeNumbers(NamedTuple):
     reprinted: Evidence
 
 
-def changes_by_step(fine: Depths, coarse: Depths) -> ChangeNumbers:
+def changes_by_step(results: Results, fine: Depths, coarse: Depths) -> ChangeNumbers:
     """Return the loss of depth with a coarse time step, and the depth as it would print."""
+    fine_step, coarse_step = results.text("a-step"), results.text("coarse-step")
     plain, middle = Scheme.PUBLISHED, Scheme.CENTERED
     of_3 = prints(
         "change_3", "0.14", 1 - coarse[3, plain] / fine[3, plain], "percent",
-        "loss of depth from 0.2 to 0.5 ns, beta = 3, drag at the initial velocity",
+        f"loss of depth from {fine_step} to {coarse_step} ns, beta = 3, drag at the initial "
+        "velocity",
     )  # fmt: skip
     of_5 = prints(
         "change_5", "0.12", 1 - coarse[5, plain] / fine[5, plain], "percent", "the same, beta = 5"
@@ -190,7 +196,7 @@ def changes_by_step(fine: Depths, coarse: Depths) -> ChangeNumbers:
     nm_5 = prints("nm_5", "9.3", fine[5, plain] - coarse[5, plain], "nm", "that loss, beta = 5")
     reprinted = equals(
         "reprinted", "7.66", Fraction(f"{coarse[5, plain]:.2e}"), "um",
-        "final depth at 0.5 ns as printed, beta = 5, drag at the initial velocity",
+        f"final depth at {coarse_step} ns as printed, beta = 5, drag at the initial velocity",
     )  # fmt: skip
     return ChangeNumbers(of_3, of_5, middle_5, nm_3, nm_5, reprinted)
 
@@ -209,7 +215,7 @@ def row_that_differs(results: Results) -> RowNumbers:
     rows = {scheme: sheet.run(case(results, 5), scheme).rows[first] for scheme in Scheme}
     number = equals(
         "row", "12", first, "1",
-        "first row whose deceleration prints otherwise, beta = 5, 7850 kg/m^3",
+        f"first row whose deceleration prints otherwise, beta = 5, {density_taken(results)}",
     )  # fmt: skip
     plain = prints(
         "row_plain", "6.73E+09", rows[Scheme.PUBLISHED].deceleration, "m/s^2",
@@ -235,18 +241,19 @@ class ExactNumbers(NamedTuple):
 def short_of_exact(results: Results, fine: Depths, coarse: Depths) -> ExactNumbers:
     """Return the exact depths, and by how much the sheet's, drag at the initial velocity, fail."""
     plain = Scheme.PUBLISHED
+    fine_step, coarse_step = results.text("a-step"), results.text("coarse-step")
     rest = {b: depth.final_depth(**case(results, b).motion) for b in (3, 5)}
     short_3 = prints(
         "short_3", "8.80", rest[3] - fine[3, plain], "nm",
-        "exact depth at rest minus the sheet's at 0.2 ns, beta = 3",
+        f"exact depth at rest minus the sheet's at {fine_step} ns, beta = 3",
     )  # fmt: skip
     short_5 = prints(
         "short_5", "5.38", rest[5] - fine[5, plain], "nm",
-        "exact depth at rest minus the sheet's at 0.2 ns, beta = 5",
+        f"exact depth at rest minus the sheet's at {fine_step} ns, beta = 5",
     )  # fmt: skip
     coarse_short_5 = prints(
         "coarse_short_5", "14.6", rest[5] - coarse[5, plain], "nm",
-        "exact depth at rest minus the sheet's at 0.5 ns, beta = 5",
+        f"exact depth at rest minus the sheet's at {coarse_step} ns, beta = 5",
     )  # fmt: skip
     exact_3 = prints("exact_3", "10.0395", rest[3], "um", "exact depth at rest, beta = 3")
     exact_5 = prints("exact_5", "7.6749", rest[5], "um", "exact depth at rest, beta = 5")
@@ -260,7 +267,10 @@ def two_schemes(results: Results) -> Finding:
     """The appendix does not say at which velocity of a step the drag is taken."""
     text, orders = results.text, orders_of_schemes(results)
     fine, coarse = depths_by_sheet(results, "a-step"), depths_by_sheet(results, "coarse-step")
-    reached, change = depths_of_schemes(fine, coarse), changes_by_step(fine, coarse)
+    reached, change = (
+        depths_of_schemes(results, fine, coarse),
+        changes_by_step(results, fine, coarse),
+    )
     row, at_rest = row_that_differs(results), short_of_exact(results, fine, coarse)
     middle_density = prints(
         "middle_density", "7848.4", least_middle_density(results), "kg/m^3",

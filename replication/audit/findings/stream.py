@@ -31,11 +31,18 @@ def compared_velocity(results: Results) -> Finding:
         name: exact_ratio(case(results, 5, velocity=results[name]))
         for name in ("velocity-521", "velocity-606", "velocity-403")
     }
-    first = prints("first", "0.728", ratios["velocity-521"], "1", "exact X/R at 521 m/s, beta = 5")
+    first = prints(
+        "first", "0.728", ratios["velocity-521"], "1",
+        f"exact X/R at {text('velocity-521')} m/s, beta = 5",
+    )  # fmt: skip
     second = prints(
-        "second", "0.854", ratios["velocity-606"], "1", "exact X/R at 606 m/s, beta = 5"
-    )
-    least = prints("least", "0.557", ratios["velocity-403"], "1", "exact X/R at 403 m/s, beta = 5")
+        "second", "0.854", ratios["velocity-606"], "1",
+        f"exact X/R at {text('velocity-606')} m/s, beta = 5",
+    )  # fmt: skip
+    least = prints(
+        "least", "0.557", ratios["velocity-403"], "1",
+        f"exact X/R at {text('velocity-403')} m/s, beta = 5",
+    )  # fmt: skip
     y_5, y_3 = results.exact("ratio-beta-5"), results.exact("ratio-beta-3")
     volume_high = prints(
         "volume_high", "0.28", y_5**2 * (3 - y_5) / 4, "1", "CV/PV at the printed X/R for beta = 5"
@@ -186,14 +193,17 @@ def faster_particles(results: Results) -> Finding:
         "share of faster particles, taken as mean deviation",
     )  # fmt: skip
     standard_400 = prints(
-        "standard_400", "16", beyond(float(-from_400)), "percent", "the same share about 400 m/s"
-    )
+        "standard_400", "16", beyond(float(-from_400)), "percent",
+        f"the same share about {text('stream-velocity-400')} m/s",
+    )  # fmt: skip
     mean_400 = prints(
         "mean_400", "21", beyond(-from_400 * GAUSSIAN), "percent",
-        "the same about 400 m/s, taken as mean deviation",
+        f"the same about {text('stream-velocity-400')} m/s, taken as mean deviation",
     )  # fmt: skip
     ratio = prints("ratio", "0.94", from_403, "1", "distance in deviations")
-    ratio_400 = equals("ratio_400", "1", from_400, "1", "the same from 400 m/s")
+    ratio_400 = equals(
+        "ratio_400", "1", from_400, "1", f"the same from {text('stream-velocity-400')} m/s"
+    )
     step = calculated("0.94", from_403)
     v_400, v_403, v_450 = (
         text(name) for name in ("stream-velocity-400", "velocity-403", "stream-velocity-450")
