@@ -22,8 +22,8 @@ COMMANDS = (
     "stability, sweep, bench, check, diff, power"
 )
 SHEETS = (
-    "the sheets are 'Overview', 'Inputs', 'Table A-1', 'Sheet beta 5', 'Figure 3', 'Figure 5', "
-    "'Convergence', 'Frank-Zook'"
+    "the sheets are 'Overview', 'Inputs', 'Table A-1', 'Sheet beta 5', "
+    "'Figures 3 and 5', 'Convergence', 'Crater', 'Resistance and Frank-Zook'"
 )
 
 
