@@ -10,6 +10,7 @@ from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
+from itertools import count
 from math import inf, isinf
 
 import msgspec
@@ -145,7 +146,7 @@ def find_solutions(
 ) -> SolutionSet:
     """Return the values of one input, the others given, for which the function lies in the target.
 
-    A part of the search on which the function is proven monotone is solved by bisection; any other
+    A part of the search on which the function is proven monotone is solved by secants; any other
     undecided part is halved. At most `budget` parts are examined. What is then undecided belongs to
     the outer intervals, as do parts on which the function may have no value somewhere.
 
@@ -174,7 +175,8 @@ def find_solutions(
             outer.append(part)
         elif not target.excludes(*range_.ends):
             rises = range_.signs[name] > 0
-            first, last = (_crossing(value, part, target, rises, end) for end in (0, 1))
+            at_ends = value(part[0]), value(part[1])
+            first, last = (_crossing(value, part, at_ends, target, rises, end) for end in (0, 1))
             outer.append((first[0], last[1]))
             between = first[1], last[0]
             if between[0] <= between[1] and all(target.encloses(*value(x)) for x in between):
@@ -183,26 +185,51 @@ def find_solutions(
 
 
 def _crossing(
-    value: Callable[[Fraction], Ends], part: Ends, target: Interval, rises: bool, end: int
+    value: Callable[[Fraction], Ends],
+    part: Ends,
+    at_ends: tuple[Ends, Ends],
+    target: Interval,
+    rises: bool,
+    end: int,
 ) -> Ends:
-    """Bracket the input at which a monotone function enters the target (end 0) or leaves it (1)."""
+    """Bracket the input at which a monotone function enters the target (end 0) or leaves it (1).
+
+    `at_ends` are its values at the ends of the part. The Illinois method narrows the bracket: each
+    new end is the zero of the secant between the ends, and where the same end moves twice, half the
+    value is taken at the other. Every fourth time the bracket is halved, as secants can be slow.
+    Each end is proven to lie on its side, however it was chosen.
+    """
     at_lower = rises == (end == 0)
     goal = target.lower if at_lower else target.upper
-    least, greatest = value(part[end])
+    least, greatest = at_ends[end]
     # The function may lie in the target up to this end of the part.
     if goal is None or (least > goal if at_lower else greatest < goal):
         return part[end], part[end]
-    (low, high), width = part, (part[1] - part[0]) / 2**44  # finer than any digits that are shown
-    while high - low > width:
-        # Not the exact middle, where a simple function might hit the goal and decide nothing.
-        x = (low + (high - low) * Fraction(49, 100)).limit_denominator(10**30)
+    # Twice the function less the goal, at both ends.
+    at_low, at_high = (least + greatest - 2 * goal for least, greatest in at_ends)
+    (low, high), width = part, (part[1] - part[0]) / 2**60  # so that all digits of a double hold
+    moved = ""
+    for attempt in count(1):
+        if high - low <= width:
+            break
+        if attempt % 4 == 0:  # not the exact middle, where a simple function might hit the goal
+            x = low + (high - low) * Fraction(49, 100)
+        else:
+            share = at_low / (at_low - at_high) if at_low != at_high else Fraction(1, 2)
+            # Past the secant's zero by a little, so that the end which is farther away moves, too.
+            x = low + share * (high - low) + (width / 3 if share < Fraction(1, 2) else -width / 3)
+        x = x.limit_denominator(10**30)
         below, above = value(x)
         if below <= goal <= above or not low < x < high:
             break
         if (above < goal) == rises:
-            low = x
+            low, at_low = x, below + above - 2 * goal
+            at_high /= 2 if moved == "low" else 1
+            moved = "low"
         else:
-            high = x
+            high, at_high = x, below + above - 2 * goal
+            at_low /= 2 if moved == "high" else 1
+            moved = "high"
     return low, high
 
 

@@ -249,8 +249,12 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
         return self.number.about() if is_about else self.number.interval(rounding)
 
     def target(self, rounding: Rounding = Rounding.AWAY) -> Interval:
-        """Return the values, in SI, that agree with the claim."""
-        return self.interval(rounding).scaled(self.si)
+        """Return the values, in SI, that agree with the claim. Raises ValueError for a remark."""
+        return self._targets[rounding]
+
+    @cached_property
+    def _targets(self) -> Mapping[Rounding, Interval]:
+        return {rounding: self.interval(rounding).scaled(self.si) for rounding in Rounding}
 
     def as_input(self, convention: Convention) -> Interval:
         """Return the values, in SI, that the number may have as an input of another claim."""

@@ -23,8 +23,12 @@ def normalized_depth(
     '0.6977'
     """
     V, rho_p, rho_t, R_t = velocity, particle_density, target_density, resistance
+    p = rho_t * V * V / (2 * R_t)
+    # From 2 on, rounding 1 + p moves its logarithm by half an ulp at most, and `log` takes a third
+    # of the time of `log1p`.
+    logarithm = math.log1p(p) if p < 2 else math.log(1 + p)
     # Up to y = 1 the crater's volume over the particle's is three quarters of W.
-    return crater_depth(rho_p / rho_t * math.log1p(rho_t * V * V / (2 * R_t)))
+    return crater_depth(rho_p / rho_t * logarithm)
 
 
 def final_depth(

@@ -141,6 +141,27 @@ def test_inner_parts_are_solutions_and_nothing_outside_the_outer_parts_is(
         assert open_ <= (search[1] - search[0]) / 20, "what is left undecided"
 
 
+MONOTONE_FROM_ZERO: dict[str, Callable[..., Any]] = {
+    "line": lambda ar, x: 3 * x,
+    "flat at first": lambda ar, x: x**30,
+    "nearly a step": lambda ar, x: -1 / (x + ar.number(F(1, 10**9))),
+    "falling": lambda ar, x: 2 / (1 + x),
+    "bent": lambda ar, x: 50 * x - 49 * ar.greatest(x, ar.number(F(3, 4))),
+}
+
+
+@pytest.mark.parametrize("name", MONOTONE_FROM_ZERO)
+def test_a_crossing_is_bracketed_to_the_digits_of_a_double(name: str) -> None:
+    """Where secants are slow, too. Each end lies on its own side of the goal."""
+    function, search = MONOTONE_FROM_ZERO[name], (F(0), F(2))
+    low, high = sorted(F(function(EXACT, x)) for x in (F(1, 3), F(5, 4)))
+    solutions = find_solutions(function, "x", search, Interval(low, high))
+    ((least, greatest),), ((first, last),) = solutions.inner, solutions.outer
+    assert first <= F(1, 3) <= least
+    assert greatest <= F(5, 4) <= last
+    assert max(least - first, last - greatest) <= F(2, 2**60)
+
+
 def outcome_of(
     *limits: tuple[Any, Any, Any], budget: int = 1000, **box: tuple[F, F]
 ) -> bool | None:

@@ -106,6 +106,24 @@ def test_the_sheets_are_sound_as_far_as_their_parts_tell(emitted: Any) -> None:
     assert sum("<autoFilter " in text for text in sheets) == 1
 
 
+OLD_FUNCTIONS = {
+    "ABS", "ASIN", "COUNT", "COUNTIF", "EXP", "IF", "IFERROR", "INDEX", "ISNUMBER", "LN", "MAX",
+    "MIN", "NA", "PI", "ROUND", "ROW", "SIN", "SQRT",
+}  # fmt: skip
+"""Functions of Excel 2007, the first to read .xlsx. Newer ones would need the prefix _xlfn."""
+
+
+def test_every_function_is_as_old_as_the_file_format(emitted: Any) -> None:
+    formulas = [
+        re.sub('"[^"]*"', "", cell.formula)
+        for page in emitted.book.plan.sheets
+        for cell in page.cells.values()
+    ]
+    called = {name for formula in formulas for name in re.findall(r"([A-Za-z0-9.]+)\(", formula)}
+    assert "IFERROR" in called
+    assert called <= OLD_FUNCTIONS
+
+
 def test_a_text_longer_than_its_column_has_room_for_two_lines(emitted: Any) -> None:
     parts = parts_of(emitted.path.read_bytes())
     for number, page in enumerate(emitted.book.plan.sheets, start=1):
