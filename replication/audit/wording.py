@@ -287,8 +287,9 @@ def sources(ledger: Ledger, claim: Claim, comparisons: Sequence[Comparison]) -> 
     )
     if not agreeing:
         values = [source.value for source in ledger.sources_of(claim.id)]
-        middle = " It lies between them." * (min(values) < claim.value < max(values))
-        return f"{origin(claim)} No public source at hand prints it: {others}.{middle}"
+        says = f"{origin(claim)} No public source at hand prints it: {others}."
+        lies_between = min(values) < claim.value < max(values)
+        return f"{says} It lies between them." if lies_between else says
     but = f", not with {others}" if others else ""
     return f"{origin(claim)} It agrees with {agreeing}{but}."
 
