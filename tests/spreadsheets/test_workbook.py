@@ -58,19 +58,21 @@ IN_EVERY_PROGRAM = ["report", "report, centered", "resistance given", "slow, 0.0
 
 
 @pytest.fixture(scope="session")
-def file_of(build: Callable[..., Workbook], emit_to: Any) -> Callable[[str], Any]:
+def file_of(build: Callable[..., Workbook], emit_to: Any, emitted: Any) -> Callable[[str], Any]:
     """Return a function that writes the workbook of one of the cases, once."""
-    return cache(lambda name: emit_to(build(*CASES[name])))
+    return cache(lambda name: emitted if name == "report" else emit_to(build(*CASES[name])))
 
 
 def check_recalculated(engine: Engine, file_of: Callable[[str], Any], names: Sequence[str]) -> None:
     """Assert that an engine gives the values of these workbooks, within the tolerances."""
     files = [file_of(name) for name in names]
-    result = engine.recalculate_many([file.path for file in files])
-    for name, file, values in zip(names, files, result, strict=True):
+    new = [file for file in files if engine.name not in file.unchanged]
+    for file, values in zip(new, engine.recalculate_many([f.path for f in new]), strict=True):
+        file.unchanged[engine.name] = values
+    for name, file in zip(names, files, strict=True):
         bound = file.book.rounding if engine.long_doubles else 0.0
         allowed = tolerances(file.book.plan, file.book.cells, bound)
-        assert compare(file.book.cells, values, allowed) == [], name
+        assert compare(file.book.cells, file.unchanged[engine.name], allowed) == [], name
 
 
 def test_recalculated_values_are_pythons_doubles(
