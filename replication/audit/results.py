@@ -8,10 +8,12 @@ from reference.printed import decimal_text
 from reference.units import to_si
 from replication.audit.assessment import Reading, Verdict
 from replication.audit.explain import Explainer
+from replication.audit.inference import DENSITY
 from replication.audit.slips import slips_tried
 from replication.audit.verdict import Judge
 from replication.models import depth
 from replication.models.impact import Impact
+from replication.text import number
 
 DERIVED = "derived from Eqs. 14 and 15"
 """The name of the reading of Eq. 16 that does not take it as printed."""
@@ -55,6 +57,16 @@ class Results:
     def computed(self, claim: str, reading: str = "") -> float:
         """Return what the models compute for a claim by one of its readings, in SI."""
         return self.reading(claim, reading).computed * float(self.ledger.claims[claim].si)
+
+    @property
+    def assumed_density(self) -> str:
+        """The target density that is assumed, with its unit, as it is shown.
+
+        >>> from reference.ledger import load
+        >>> Results(load()).assumed_density
+        '7850 kg/m^3'
+        """
+        return f"{number(self.exact(DENSITY))} kg/m^3"
 
     def verdict(self, name: str) -> Verdict:
         """Return the verdict on a claim or an equation."""

@@ -172,7 +172,7 @@ class Arrangement:
             by_hand,
             findings,
             facts,
-            tables.explanation_tables(record),
+            tables.explanation_tables(record, self.names),
         )
 
     @property

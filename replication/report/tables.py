@@ -13,6 +13,7 @@ from reference.scheme import Scheme
 from replication.audit import record as r
 from replication.audit.assessment import Comparison, ConfirmedRange, Reading
 from replication.audit.comparison import SHARES
+from replication.audit.inference import DENSITY
 from replication.report.prose import Named, plain_quotation
 from replication.report.words import measured, printed_with_unit, shown_range
 from replication.text import Table, between, number, quantity, rounded
@@ -141,8 +142,11 @@ def significant_digits(text: str) -> int:
     return len(re.sub(r"\D", "", mantissa).lstrip("0")) or 1
 
 
-def explanation_tables(record: r.ClaimRecord) -> list[Table]:
-    """Return the explanations tried for a claim that fails, and the figures that judge a remark."""
+def explanation_tables(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[Table]:
+    """Return the explanations tried for a claim that fails, and the figures that judge a remark.
+
+    `names` have the assumed value of the target density, at which slips are computed.
+    """
     figures = [(f.means, measured(f.value, f.unit, 4) or NO_VALUE) for f in record.figures]
     slips = [(s.name, str(s.departures), measured(s.value, "1", 5), s.fits) for s in record.slips]
     inputs = []
@@ -154,13 +158,12 @@ def explanation_tables(record: r.ClaimRecord) -> list[Table]:
     readings = dict.fromkeys(solved.reading or "as printed" for solved in record.back_solved)
     heads = ("input", "printed", *(f"needed, {reading}" for reading in readings), "searched")
     changed = "Proven values of one input that would give the number, all others as printed"
+    at_density = f"X/R at {names[DENSITY].value}" if slips else "X/R"
     tables = (
         Table("The figures to judge it by", ("what", "computed"), figures),
         Table(changed, heads, inputs),
         repairs(record.repairs, record.id),
-        Table(
-            _slips_title(record), ("Eq. 16 with", "slips", "X/R at 7850 kg/m^3", "prints so"), slips
-        ),
+        Table(_slips_title(record), ("Eq. 16 with", "slips", at_density, "prints so"), slips),
     )
     return [shown for shown in tables if shown.rows]
 

@@ -102,7 +102,9 @@ def test_the_schema_describes_every_object_in_lines_without_an_indent() -> None:
 
 
 def test_an_equation_for_a_terminal(audit: Audit) -> None:
-    text = report.equation_proof(audit.equation("eq16"), findings_on(audit, "eq16"), LEDGER, 100)
+    text = report.equation_proof(
+        audit.equation("eq16"), findings_on(audit, "eq16"), audit.judge, 100
+    )
     lines = text.splitlines()
     assert lines[:3] == [
         "Eq. 16, depth by Frank and Zook (eq16)",

@@ -184,11 +184,12 @@ def frank_zook_pair(audit: Results) -> Finding:
         "greatest rise of two numbers that print so",
     )
     z = prints(
-        "z", "2.053", drag(audit), "GPa", "k_t rho_t V^2 at the inputs as printed and 7850 kg/m^3"
-    )
+        "z", "2.053", drag(audit), "GPa",
+        f"k_t rho_t V^2 at the inputs as printed and {audit.assumed_density}",
+    )  # fmt: skip
     limit = at_least(
         "limit", "2975", common_velocity(audit), "m/s",
-        "velocity below which this holds, both R_t and k_t rounded, 7850 kg/m^3",
+        f"velocity below which this holds, both R_t and k_t rounded, {audit.assumed_density}",
     )  # fmt: skip
     density = equals("density", "7850", exact(DENSITY), "kg/m^3", "target density taken there")
     ratio = calculated("1.179", log1p(2.053 / (R_low / 10**9)) / log1p(2.053 / (R_t / 10**9)))
@@ -481,7 +482,9 @@ def frank_zook_values(audit: Results) -> Finding:
         )
         for name, (_, fitting) in tried.items()
     }
-    taken_rha = equals("taken_rha", "1", at_taken["rha"], "1", "those that do at 7850 kg/m^3")
+    taken_rha = equals(
+        "taken_rha", "1", at_taken["rha"], "1", f"those that do at {audit.assumed_density}"
+    )
     taken_stainless = equals(
         "taken_stainless", "2", at_taken["stainless"], "1", "the same, stainless steel"
     )
@@ -509,7 +512,8 @@ def frank_zook_values(audit: Results) -> Finding:
     )
     multiplied = prints(
         "multiplied", "0.278503", multiplied_rha, "1",
-        "Eq. 16 with /2*k_t typed without brackets and X/R twice X/D, armor, 7850 kg/m^3",
+        "Eq. 16 with /2*k_t typed without brackets and X/R twice X/D, armor, "
+        f"{audit.assumed_density}",
     )  # fmt: skip
     multiplied_other = prints(
         "multiplied_other", "0.328", multiplied_stainless, "1", "the same, stainless steel"

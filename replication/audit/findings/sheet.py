@@ -110,7 +110,8 @@ def target_density(audit: Results) -> Finding:
     )  # fmt: skip
     carbon = proves(
         "carbon", admits("carbon-steel-density", Admission.ADMITTED),
-        "7850 is admitted, header as printed but the sphere's mass",
+        f"{audit.text('carbon-steel-density')} is admitted, header as printed but the sphere's "
+        "mass",
     )  # fmt: skip
     rounded_least = at_least(
         "rounded_least", "7686", all_rounded[0], unit,
@@ -333,7 +334,7 @@ def two_schemes(audit: Results) -> Finding:
     rows = {scheme: sheet.run(case(audit, 5), scheme).rows[number] for scheme in Scheme}
     row = equals(
         "row", "12", number, "1",
-        "first row whose deceleration prints otherwise, beta = 5, 7850 kg/m^3",
+        f"first row whose deceleration prints otherwise, beta = 5, {audit.assumed_density}",
     )  # fmt: skip
     row_plain = prints(
         "row_plain", "6.73E+09", rows[plain].deceleration, "m/s^2",
