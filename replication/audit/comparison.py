@@ -108,8 +108,10 @@ def sensitivity(results: Results) -> list[r.Sensitivity]:
 
 def _sensitivity(results: Results, beta: int) -> r.Sensitivity:
     impact = case(results, beta)
-    velocity, radius, *materials = impact.motion.values()
-    by_input = depth.elasticities(velocity, *materials)
+    velocity, radius = impact.velocity, impact.radius
+    by_input = depth.elasticities(
+        velocity, impact.particle_density, impact.target_density, impact.target_resistance
+    )
     # The resistance is the product of beta and the flow stress, so both have its elasticity.
     by_input |= dict.fromkeys(("beta", "flow_stress"), by_input.pop("resistance"))
     spread, size = results["velocity-deviation"], results["diameter-deviation"] / 2

@@ -20,7 +20,7 @@ from replication.cli.case import (
 from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import paragraph, put, width
 from replication.models.estimates import penetration_threshold
-from replication.models.impact import Impact, check_each, check_inputs
+from replication.models.impact import Impact, check_magnitudes, check_positive
 from replication.text import aligned, columns, number, with_unit
 from replication.user_input import place, read_number
 
@@ -143,8 +143,8 @@ def _read_input(flag: str, name: str, text: str, unit: str) -> float:
     """Read a number for an input, which no case has, that the models can compute with."""
     with place(flag):
         value = read_number(text, unit)
-        check_inputs({name: value})
-        check_each(**{name: value})
+        check_positive({name: value})
+        check_magnitudes(**{name: value})
         return value
 
 
