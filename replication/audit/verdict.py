@@ -211,7 +211,7 @@ class Judge:
 
     def _reading(self, claim: Claim, name: str) -> Reading:
         function = self.ledger.function(claim, reading=name)
-        exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
+        exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.input_ids})
         reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
         reference /= _REALS.number(claim.si)
         computed = float(reference)
@@ -251,7 +251,7 @@ class Judge:
                     yield Judgement(convention, Verdict.REPRODUCED, admitted)
                 elif target.encloses(*at_print):
                     # Only some admitted values give it, and the evidence does not tell which holds.
-                    witness = {entry: self.value(entry) for entry in claim.entries}
+                    witness = {entry: self.value(entry) for entry in claim.input_ids}
                     yield Judgement(convention, Verdict.WITHIN_ROUNDING, admitted, witness)
                 else:
                     yield Judgement(convention, Verdict.UNDECIDED, admitted)
@@ -269,7 +269,7 @@ class Judge:
             return Judgement(convention, Verdict.NOT_REPRODUCED, ends)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         constraints = [(function, target)]
-        witnessed = set(claim.entries)
+        witnessed = set(claim.input_ids)
         for entry in claim.inferred:
             inference = self.inference(entry, scheme=convention.scheme)
             constraints, box = inference.joint(convention, box, constraints)
@@ -334,11 +334,11 @@ class Judge:
 
     def inputs_as_printed(self, claim: Claim) -> Box:
         """Return the inputs of a claim as printed or, where they are inferred, as assumed."""
-        return {entry: (self.value(entry),) * 2 for entry in claim.entries}
+        return {entry: (self.value(entry),) * 2 for entry in claim.input_ids}
 
     def inputs_as_rounded(self, claim: Claim, convention: Convention) -> Box:
         """Return the ranges of a claim's inputs, each as `rounded` has it."""
-        return {entry: self.rounded(entry, convention).ends for entry in claim.entries}
+        return {entry: self.rounded(entry, convention).ends for entry in claim.input_ids}
 
     def rounded(self, entry: str, convention: Convention) -> Interval:
         """Return the values of an input (SI) that print like it, or that its evidence admits."""
@@ -412,7 +412,7 @@ def agrees(ledger: Ledger, claim: Claim, changed: Replacements, reading: str = "
     """Return whether a claim agrees with its computation, in doubles, some entries changed."""
     if claim.restates:
         return is_consistent(ledger, claim)
-    target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
+    target, values = claim.target(), {name: ledger.value(name) for name in claim.input_ids}
     inputs = {name: float(changed.get(name, value)) for name, value in values.items()}
     try:
         value = Fraction(ledger.function(claim, reading=reading)(Floats(), **inputs))

@@ -102,7 +102,7 @@ def main_results(record: r.Record) -> Table:
 
 def _title(record: r.Record, claim: Claim) -> str:
     """Return a claim's title, and which main result as printed it is computed from, if any."""
-    used = [other.claim for other in record.claims if other.id in {*claim.entries} & {*MAIN}]
+    used = [other.claim for other in record.claims if other.id in {*claim.input_ids} & {*MAIN}]
     printed = " and ".join(map(printed_with_unit, used))
     return f"{claim.title}, from the printed {printed}" if used else claim.title
 
@@ -112,23 +112,25 @@ def not_as_printed(record: r.Record) -> Table:
 
     Each reading of an equation has a column.
     """
-    failing = [entry for entry in record.claims if entry.verdict.is_open]
+    failing = [claim for claim in record.claims if claim.verdict.is_open]
     constants = (entry.assessment.constants for entry in record.equations)
     needed = {name: constant.needed for own in constants for name, constant in own.items()}
     as_printed = "computed as printed"
-    names = (reading.name for entry in failing for reading in entry.assessment.readings)
+    names = (reading.name for claim in failing for reading in claim.assessment.readings)
     *_, last = heads = tuple(dict.fromkeys([as_printed, *filter(None, names)]))
     rows = []
-    for entry in failing:
-        digits = significant_digits(entry.claim.text)
+    for claim in failing:
+        digits = significant_digits(claim.claim.text)
         texts = {
             reading.name or as_printed: f"{reading.computed:#.{digits}g}"
-            for reading in entry.assessment.readings
+            for reading in claim.assessment.readings
         }
-        if entry.id in needed:
-            texts[last] = "derived: " * (last == as_printed) + " or ".join(needed[entry.id])
+        if claim.id in needed:
+            texts[last] = " or ".join(needed[claim.id])
+            if last == as_printed:
+                texts[last] = f"derived: {texts[last]}"
         own = (texts.get(head, "") for head in heads)
-        rows.append((f"`{entry.id}`", printed_with_unit(entry.claim), *own))
+        rows.append((f"`{claim.id}`", printed_with_unit(claim.claim), *own))
     return Table("What does not come out as printed", ("number", "printed", *heads), rows)
 
 
@@ -230,7 +232,8 @@ def evidence(finding: r.Finding) -> Table:
     for piece in finding.evidence:
         is_stated = piece.asserted.lstrip("<=> ") in standing
         shown = quantity(piece.asserted, piece.unit) if is_stated else piece.means
-        rows.append((shown, computed(piece) + ": NOT AS STATED" * (not piece.holds)))
+        value = computed(piece)
+        rows.append((shown, value if piece.holds else f"{value}: NOT AS STATED"))
     return Table("The numbers of this text, with two more digits", ("stated", "computed"), rows)
 
 
