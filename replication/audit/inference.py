@@ -12,6 +12,7 @@ from reference.enclosure import (
     Box,
     Constraint,
     Ends,
+    Satisfiability,
     SolutionSet,
     bounds,
     find_solutions,
@@ -165,9 +166,11 @@ class Inference:
                 continue
             # The bounds hold for each piece of evidence by itself, and may admit too much.
             within = max(low, least), min(high, greatest)
-            admitted, _ = satisfying(*self.joint(convention, {self.name: within}))
-            if admitted is not False:
-                return admission if admitted else Admission.UNDECIDED
+            outcome, _ = satisfying(*self.joint(convention, {self.name: within}))
+            if outcome is Satisfiability.SHOWN:
+                return admission
+            if outcome is Satisfiability.UNDECIDED:
+                return Admission.UNDECIDED
         return Admission.EXCLUDED
 
 

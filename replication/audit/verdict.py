@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from reference.arithmetic import Floats, InexactError, Rationals, Reals
 from reference.derivations import Check, derive
-from reference.enclosure import Box, Ends, enclose, satisfying
+from reference.enclosure import Box, Ends, Satisfiability, enclose, satisfying
 from reference.equations import EquationError, dimension
 from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, in_header
 from reference.printed import Interval, Rounding
@@ -277,7 +277,7 @@ class Judge:
                 witnessed.add(inference.entry.mass)
         outcome, point = satisfying(constraints, box, budget)
         witness = point and {entry: x for entry, x in point.items() if entry in witnessed}
-        against_evidence = bool(claim.inferred) and outcome is False
+        against_evidence = bool(claim.inferred) and outcome is Satisfiability.REFUTED
         return Judgement(convention, _VERDICTS[outcome], ends, witness, against_evidence)
 
     # Public sources, and choices that other claims confirm
@@ -368,8 +368,10 @@ class Judge:
 
 
 _VERDICTS = {
-    True: Verdict.WITHIN_ROUNDING, False: Verdict.NOT_REPRODUCED, None: Verdict.UNDECIDED,
-}  # fmt: skip
+    Satisfiability.SHOWN: Verdict.WITHIN_ROUNDING,
+    Satisfiability.REFUTED: Verdict.NOT_REPRODUCED,
+    Satisfiability.UNDECIDED: Verdict.UNDECIDED,
+}
 """The verdict by whether inputs that print like the report's can give the number."""
 
 _BUDGET = 100
