@@ -1,6 +1,7 @@
 """`coldspray claims`: list the numbers that the report prints, or prove one."""
 
 import argparse
+import re
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -37,15 +38,32 @@ def run(options: argparse.Namespace) -> int:
     from reference.ledger import load
 
     ledger, wanted = load(), options.id
+    if wanted is not None:
+        wanted = _id_of_equation(wanted) or wanted
     if options.verdict and wanted in {*ledger.claims, *ledger.equations}:
         raise ValueError(f"--verdict selects from a list: leave it out to prove {wanted}")
     if wanted in ledger.claims or wanted in ledger.equations:
-        return _prove(options, ledger)
-    listed = [claim for claim in ledger.claims.values() if wanted in (None, *_texts(claim))]
+        return _prove(wanted, options, ledger)
+    with_point = None if wanted is None else re.sub(r"(?<=\d),(?=\d)", ".", wanted)
+    listed = [
+        claim
+        for claim in ledger.claims.values()
+        if wanted is None or {wanted, with_point}.intersection(_texts(claim))
+    ]
     if not listed:
         hint = advice(wanted, [*ledger.claims, *ledger.equations], "`coldspray claims` lists them")
         raise ValueError(f"there is no claim {quoted(wanted)}, and none prints that; {hint}")
     return _list(options, ledger, listed)
+
+
+def _id_of_equation(text: str) -> str:
+    """Return the id of an equation that is named as people do, or "".
+
+    >>> _id_of_equation("Eq. 16"), _id_of_equation("eq A-3"), _id_of_equation("7.67")
+    ('eq16', 'eqA-3', '')
+    """
+    named = re.fullmatch(r"eq(?:uation)?\.?\s*((?:A-)?\d+)", text.strip(), re.IGNORECASE)
+    return f"eq{named[1].upper()}" if named else ""
 
 
 def _texts(claim: "Claim") -> tuple[str, ...]:
@@ -96,7 +114,7 @@ def _record(claim: "Claim", verdict: "Verdict | None") -> dict[str, Any]:
     return record | ({"verdict": verdict} if verdict else {})
 
 
-def _prove(options: argparse.Namespace, ledger: "Ledger") -> int:
+def _prove(name: str, options: argparse.Namespace, ledger: "Ledger") -> int:
     """Print what the verdict on a claim or an equation rests on."""
     from replication import report
     from replication.audit.audit import Audit
@@ -105,15 +123,15 @@ def _prove(options: argparse.Namespace, ledger: "Ledger") -> int:
 
     audit = Audit(ledger)
     settings = (audit.judge, width(), may_emphasize())
-    if options.id in ledger.claims:
-        claim = audit.claim(options.id)
+    if name in ledger.claims:
+        claim = audit.claim(name)
         if options.json:
             return put(options, document.claim_document(claim), str)
-        text = report.proof(claim, findings_on(audit, options.id), *settings)
+        text = report.proof(claim, findings_on(audit, name), *settings)
     else:
-        equation = audit.equation(options.id)
+        equation = audit.equation(name)
         if options.json:
             return put(options, document.equation_document(equation), str)
-        text = report.equation_proof(equation, findings_on(audit, options.id), *settings)
+        text = report.equation_proof(equation, findings_on(audit, name), *settings)
     print(text)
     return 0
