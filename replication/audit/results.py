@@ -12,6 +12,7 @@ from replication.audit.inference import DENSITY
 from replication.audit.slips import slips_tried
 from replication.audit.verdict import Judge
 from replication.models import depth
+from replication.models.estimates import constant_pressure_depth
 from replication.models.impact import Impact
 from replication.text import number
 
@@ -58,16 +59,6 @@ class Results:
         """Return what the models compute for a claim by one of its readings, in SI."""
         return self.reading(claim, reading).computed * float(self.ledger.claims[claim].si)
 
-    @property
-    def assumed_density(self) -> str:
-        """The target density that is assumed, with its unit, as it is shown.
-
-        >>> from reference.ledger import load
-        >>> Results(load()).assumed_density
-        '7850 kg/m^3'
-        """
-        return f"{number(self.exact(DENSITY))} kg/m^3"
-
     def verdict(self, name: str) -> Verdict:
         """Return the verdict on a claim or an equation."""
         if name in self.ledger.equations:
@@ -96,6 +87,37 @@ def case(results: Results, beta: int, /, **changed: float) -> Impact:
     return Impact(**{**inputs, **changed})
 
 
+def of_beta(results: Results, beta: int) -> str:
+    """Return the beta of one of the report's cases in words, as the report prints it.
+
+    >>> from reference.ledger import load
+    >>> of_beta(Results(load()), 5)
+    'beta = 5'
+    """
+    return f"beta = {results.text(f'depth-beta-{beta}-beta')}"
+
+
+def density_taken(results: Results) -> str:
+    """Return the target density with which the audit computes, in words.
+
+    >>> from reference.ledger import load
+    >>> density_taken(Results(load()))
+    '7850 kg/m^3'
+    """
+    return f"{number(results.exact(DENSITY))} kg/m^3"
+
+
 def exact_ratio(impact: Impact) -> float:
     """Return the exact final X/R [1] of the model (Eqs. 12-13)."""
     return depth.final_depth(**impact.motion) / impact.radius
+
+
+def constant_pressure_ratio(impact: Impact) -> float:
+    """Return the final X/R [1] at the constant pressure R_t: Eq. 13 without the target's inertia.
+
+    >>> from reference.ledger import load
+    >>> f"{constant_pressure_ratio(case(Results(load()), 5)):.3f}"
+    '0.752'
+    """
+    density, resistance = impact.particle_density, impact.target_resistance
+    return constant_pressure_depth(impact.velocity, 1.0, density, resistance)
