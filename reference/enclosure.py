@@ -205,9 +205,8 @@ def _crossing(
 
     `at_ends` are its values at the ends of the part. The Illinois method narrows the bracket: each
     new end is the zero of the secant between the ends, and where the same end moves twice, half the
-    value is taken at the other. Every fourth time the bracket is halved, as secants can be slow,
-    and after a value that cannot be told from the goal. Each end is proven to lie on its side,
-    however it was chosen.
+    value is taken at the other. Every fourth time the bracket is halved, as secants can be slow.
+    Each end is proven to lie on its side, however it was chosen.
     """
     at_lower = rises == (end == 0)
     goal = target.lower if at_lower else target.upper
@@ -218,12 +217,11 @@ def _crossing(
     # Twice the function less the goal, at both ends.
     at_low, at_high = (least + greatest - 2 * goal for least, greatest in at_ends)
     (low, high), width = part, (part[1] - part[0]) / 2**60  # so that all digits of a double hold
-    moved, is_open = "", False
+    moved = ""
     for attempt in count(1):
         if high - low <= width:
             break
-        halves = is_open or attempt % 4 == 0
-        if halves:  # not the exact middle, where a simple function might hit the goal
+        if attempt % 4 == 0:  # not the exact middle, where a simple function might hit the goal
             x = low + (high - low) * Fraction(49, 100)
         else:
             share = at_low / (at_low - at_high) if at_low != at_high else Fraction(1, 2)
@@ -231,11 +229,8 @@ def _crossing(
             x = low + share * (high - low) + (width / 3 if share < Fraction(1, 2) else -width / 3)
         x = x.limit_denominator(10**30)
         below, above = value(x)
-        is_open = below <= goal <= above
-        if not low < x < high or (is_open and halves):
+        if below <= goal <= above or not low < x < high:
             break
-        if is_open:  # near a goal that is just touched no digits tell, but farther off they may
-            continue
         if (above < goal) == rises:
             low, at_low = x, below + above - 2 * goal
             at_high /= 2 if moved == "low" else 1

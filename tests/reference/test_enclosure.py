@@ -6,7 +6,7 @@ from itertools import product
 from typing import Any
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from reference.arithmetic import Rationals
@@ -123,7 +123,6 @@ def test_a_search_finds_a_point_or_proves_that_there_is_none(
 
 
 @settings(max_examples=150)
-@example(name="hill", search=(F(0), F(1)), target=Interval(F(1), None))  # touched at an end
 @given(name=st.sampled_from(OF_ONE), search=searches(), target=targets())
 def test_inner_parts_are_solutions_and_nothing_outside_the_outer_parts_is(
     name: str, search: tuple[F, F], target: Interval
