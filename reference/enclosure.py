@@ -205,7 +205,8 @@ def _crossing(
 
     `at_ends` are its values at the ends of the part. The Illinois method narrows the bracket: each
     new end is the zero of the secant between the ends, and where the same end moves twice, half the
-    value is taken at the other. Every fourth time the bracket is halved, as secants can be slow.
+    value is taken at the other. Every fourth time the bracket is halved, as secants can be slow;
+    and from then on when a secant's zero cannot be told from the goal, as where the slope is zero.
     Each end is proven to lie on its side, however it was chosen.
     """
     at_lower = rises == (end == 0)
@@ -217,11 +218,12 @@ def _crossing(
     # Twice the function less the goal, at both ends.
     at_low, at_high = (least + greatest - 2 * goal for least, greatest in at_ends)
     (low, high), width = part, (part[1] - part[0]) / 2**60  # so that all digits of a double hold
-    moved = ""
+    moved, halved = "", False
     for attempt in count(1):
         if high - low <= width:
             break
-        if attempt % 4 == 0:  # not the exact middle, where a simple function might hit the goal
+        if halved or attempt % 4 == 0:
+            # Not the exact middle, where a simple function might hit the goal.
             x = low + (high - low) * Fraction(49, 100)
         else:
             share = at_low / (at_low - at_high) if at_low != at_high else Fraction(1, 2)
@@ -229,8 +231,13 @@ def _crossing(
             x = low + share * (high - low) + (width / 3 if share < Fraction(1, 2) else -width / 3)
         x = x.limit_denominator(10**30)
         below, above = value(x)
-        if below <= goal <= above or not low < x < high:
+        if not low < x < high:
             break
+        if below <= goal <= above:
+            if halved:
+                break
+            halved = True
+            continue
         if (above < goal) == rises:
             low, at_low = x, below + above - 2 * goal
             at_high /= 2 if moved == "low" else 1

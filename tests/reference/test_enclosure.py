@@ -6,7 +6,7 @@ from itertools import product
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from reference.arithmetic import Rationals
@@ -124,6 +124,7 @@ def test_a_search_finds_a_point_or_proves_that_there_is_none(
 
 @settings(max_examples=150)
 @given(name=st.sampled_from(OF_ONE), search=searches(), target=targets())
+@example("cubic", (F(0), F(1)), Interval(F(-2), F(0), False, False))  # its slope at 1 is zero
 def test_inner_parts_are_solutions_and_nothing_outside_the_outer_parts_is(
     name: str, search: tuple[F, F], target: Interval
 ) -> None:
