@@ -20,22 +20,39 @@ FITTABLE = ("resistance", *OTHER_FACTOR)
 """What can be fitted."""
 
 HEADS = {
-    "velocity": ("velocity", "impact velocity", "v"),
-    "depth": ("depth", "penetration depth", "final depth", "x"),
+    "velocity": (
+        "velocity", "impact velocity", "v", "v0", "v 0", "v i",
+        "geschwindigkeit", "aufprallgeschwindigkeit", "auftreffgeschwindigkeit",
+        "vitesse", "vitesse d'impact", "vitesse d’impact",
+    ),
+    "depth": (
+        "depth", "penetration depth", "final depth", "x", "penetration",
+        "tiefe", "eindringtiefe", "profondeur", "profondeur de pénétration", "pénétration",
+    ),
     "normalized_depth": ("normalized depth", "depth over radius", "x/r"),
     "uncertainty": (
         "uncertainty", "depth uncertainty", "uncertainty of depth", "u(depth)", "u(x)", "sigma",
-        "standard deviation", "std", "sd", "stdev", "depth std", "depth sd",
+        "standard deviation", "std", "sd", "stdev", "std dev", "std. dev.", "depth std", "depth sd",
         "error", "depth error", "error of depth", "standard error", "err", "±", "+/-", "+-",
+        "unsicherheit", "messunsicherheit", "fehler", "messfehler", "standardabweichung",
+        "incertitude", "erreur", "écart-type",
     ),
-    "radius": ("radius", "particle radius", "r"),
+    "radius": (
+        "radius", "particle radius", "r",
+        "partikelradius", "teilchenradius", "rayon", "rayon des particules",
+    ),
     "diameter": (
         "diameter", "particle diameter", "d", "dia", "dia.", "particle dia", "particle dia.",
+        "durchmesser", "partikeldurchmesser", "teilchendurchmesser",
+        "diamètre", "diamètre des particules",
     ),
-    "particle_density": ("particle density",),
-    "target_density": ("target density",),
+    "particle_density": ("particle density", "partikeldichte", "teilchendichte"),
+    "target_density": ("target density", "zieldichte", "dichte des ziels"),
 }  # fmt: skip
-"""The names by which columns are known: what is measured, and inputs that may differ by row."""
+"""The names by which columns are known, also in German and French; the first is the usual one.
+
+They are what is measured, and inputs that may differ by row.
+"""
 
 _UNITS = INPUTS | {"depth": "m", "normalized_depth": "1", "diameter": "m"}
 

@@ -148,8 +148,10 @@ def _quantity(name: str, si: str, label: str = "", names: Sequence[str] = ()) ->
     return AxisQuantity(label or words.capitalize(), tuple(names) or (words,), si, unit, scale)
 
 
-TIME = _quantity("time", "s", names=("time", "t"))
-SPEED = _quantity("velocity", "m/s", names=HEADS["velocity"])
+TIME = _quantity("time", "s", names=("time", "t", "zeit", "temps"))
+SPEED = _quantity(
+    "velocity", "m/s", names=("velocity", "impact velocity", "v", "geschwindigkeit", "vitesse")
+)
 DEPTH = _quantity("depth", "m", "Penetration depth", HEADS["depth"])
 RATIO = _quantity("normalized_depth", "1", "Normalized depth X/R", ("normalized depth", "x/r"))
 STEP = _quantity("step", "s", "Time step", ("step", "time step", "dt"))

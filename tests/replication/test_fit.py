@@ -171,6 +171,22 @@ def test_usual_names_of_uncertainties_are_known(head: str, tmp_path: Path) -> No
     assert read_measurements(file, BETA_5)[0].uncertainty == 0.5e-6
 
 
+@pytest.mark.parametrize(
+    "heads",
+    [
+        "Geschwindigkeit [m/s];Tiefe [µm];Fehler [µm];Partikeldurchmesser [µm]",
+        "Aufprallgeschwindigkeit in m/s;Eindringtiefe in µm;Unsicherheit in µm;Durchmesser in µm",
+        "vitesse [m/s];profondeur [µm];écart-type [µm];diamètre [µm]",
+        "v0 [m/s];penetration [µm];std dev [µm];D [µm]",
+    ],
+)
+def test_heads_may_be_german_or_french(heads: str, tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_bytes(f"{heads}\r\n500;7,6;0,5;22\r\n".encode("cp1252"))
+    expected = Measurement(500.0, *CASE, 7.6e-6, 0.5e-6, line=2)
+    assert read_measurements(file, BETA_5) == [expected]
+
+
 def test_the_unit_of_an_uncertainty_may_stand_in_its_cells(tmp_path: Path) -> None:
     file = tmp_path / "mine.csv"
     file.write_text("v,x [um],sd\n500,7.6,0.5 um\n", "utf-8")
@@ -207,8 +223,8 @@ def test_of_a_diameter_the_radius_is_half(head: str, tmp_path: Path) -> None:
         ("speed,deep\n1,2\n", "FILE has no column 'velocity' and no column 'depth': name one so, "
          "such as 'velocity [m/s]', and name 'deep' so, such as 'depth [m]' (it has 'speed', "
          "'deep')"),
-        ("v,x [um]\n500,7.6\n400,?\n", "FILE, line 3, column 'x [um]': '? um' is not a finite "
-         "number with or without a unit, such as '1 m'"),
+        ("v,x [um]\n500,7.6\n400,?\n", "FILE, line 3, column 'x [um]': '?' is not a finite "
+         "number with or without a unit, such as '1 um'"),
     ],
 )  # fmt: skip
 def test_bad_rows_are_named_by_their_line(content: str, message: str, tmp_path: Path) -> None:

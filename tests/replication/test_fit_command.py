@@ -63,10 +63,10 @@ def test_without_uncertainties_the_scatter_gives_the_error(tmp_path: Path) -> No
     ("content", "line"),
     [
         ("v,x [um]\n500,7.6\n400,?\n,3\n", "FILE, line 4, column 'v': the cell is empty"),
-        ("v,x [um]\n500,7.6\n400,?\n300,\n", "FILE, line 3, column 'x [um]': '? um' is not a "
-         "finite number with or without a unit, such as '1 m' (line 4, too)"),
+        ("v,x [um]\n500,7.6\n400,?\n300,\n", "FILE, line 3, column 'x [um]': '?' is not a "
+         "finite number with or without a unit, such as '1 um' (line 4, too)"),
         ("v,x [um]\n0,7.6\n", "FILE, line 2: velocity is 0: it must be a number greater than zero"),
-        ("v [MPa],x\n500,7.6\n", "FILE, column 'v [MPa]': '1 MPa': MPa does not measure what m/s "
+        ("v [MPa],x\n500,7.6\n", "FILE, column 'v [MPa]': MPa does not measure what m/s "
          "does"),
         ("v,x,X/R\n500,7.6,1\n", "FILE has both a depth and a normalized depth: leave one of them "
          "out"),
