@@ -18,7 +18,7 @@ FLOORS: tuple[set[str], ...] = (
     {"models"},
     {"spreadsheets", "page", "user_input", "text", "separated"},
     {"cases", "columns"},
-    {"error", "fit", "solve"},
+    {"asked_unit", "error", "fit", "solve"},
     {"audit"},
     {"workbook", "power", "plots"},
     {"bench", "sweep", "check", "report"},

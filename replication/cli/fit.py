@@ -2,10 +2,13 @@
 
 import argparse
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from replication.cases import OTHER_FACTOR
+from replication.asked_unit import LENGTH_UNITS, SHARE_UNITS, unit_asked
+from replication.cases import OTHER_FACTOR, option
 from replication.cli.case import (
     add_inputs,
     case_of,
@@ -18,7 +21,7 @@ from replication.cli.case import (
 from replication.cli.options import add_csv_and_json, add_quiet, one_of, path
 from replication.cli.output import paragraph, put
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
-from replication.columns import note_of_unused, read_columns
+from replication.columns import Column, note_of_unused, read_columns
 from replication.fit import (
     FITTABLE,
     Fit,
@@ -27,10 +30,12 @@ from replication.fit import (
     fit,
     measurement_columns,
     measurements_in,
+    note_of_share,
+    own_resistance,
 )
 from replication.models.depth import final_depth
 from replication.text import aligned, in_percent, number, numbers
-from replication.user_input import place
+from replication.user_input import place, quoted
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -69,11 +74,17 @@ def run(options: argparse.Namespace) -> int:
     refuse_sought(quantity, given, "fitted")
     case, warnings = case_of(options)
     check_factor(case, quantity)
-    points = checked(options, _further_points, options.file, options.case_file)
     columns = read_columns(options.file)
     known = measurement_columns(columns)
+    _refuse_twice(given, known)
     measurements = measurements_in(known, case)
-    notes = note_of_unused(columns, known.values()) + notes_on(points)
+    _ask_for_unit(known, measurements)
+    points = checked(
+        options, lambda file: _further_points(file, measurements), options.file, options.case_file
+    )
+    measured = known.get("depth") or known["normalized_depth"]
+    notes = note_of_unused(columns, known.values())
+    notes += note_of_share(known.get("uncertainty"), measured) + notes_on(points)
     with place(str(options.file)):
         fitted = fit(case, measurements, quantity)
     warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))
@@ -98,10 +109,52 @@ def run(options: argparse.Namespace) -> int:
     return put(options, record, lambda: _fit_text(fitted, inputs, rows), rows, warnings, notes)
 
 
-def _further_points(file: Path) -> "Points":
+def _refuse_twice(given: Mapping[str, str], known: Mapping[str, Column]) -> None:
+    """Raise ValueError if an option gives an input of which the file has a column."""
+    for name in given:
+        column = known.get(name) or (known.get("diameter") if name == "radius" else None)
+        if column:
+            has = f"{column.file} has the column {quoted(column.head)}"
+            raise ValueError(f"{option(name)}: {has}: leave out one of the two")
+
+
+def _ask_for_unit(known: Mapping[str, Column], measurements: Sequence[Measurement]) -> None:
+    """Raise ValueError that names the first depth that is probably in another unit than it says.
+
+    By itself it gives a resistance that no target has, from inputs as an impact has them; in the
+    other unit the resistance is as expected.
+    """
+    column, units = known.get("depth"), LENGTH_UNITS
+    if column is None:
+        column, units = known["normalized_depth"], SHARE_UNITS
+    per_radius = units is SHARE_UNITS
+
+    def is_expected(m: Measurement, value: float) -> bool:
+        depth = value * m.radius if per_radius else value
+        resistance = own_resistance(replace(m, depth=depth))
+        return resistance is not None and not doubt("resistance", resistance, "")
+
+    inputs = ("velocity", "radius", "particle_density", "target_density")
+    odd = [
+        row
+        for row, m in enumerate(measurements)
+        if not is_expected(m, m.depth / m.radius if per_radius else m.depth)
+        and not any(doubt(name, getattr(m, name), "") for name in inputs)
+    ]
+    for row in odd:
+        m = measurements[row]
+        if asked := unit_asked(column, row, units, partial(is_expected, m)):
+            if 2 * len(odd) < len(measurements):
+                asked = "unlike most others: is it a slip?"
+            radii = f"the depth is {m.depth / m.radius:.3g} times the radius"
+            raise ValueError(f"{column.file}, line {m.line}: {radii}: {asked}")
+
+
+def _further_points(file: Path, measurements: Sequence[Measurement]) -> "Points":
     from replication.plots import DEPTH, INPUT, read_points
 
-    return read_points(file, INPUT["velocity"], (DEPTH,))
+    deepest = {DEPTH: (max(m.depth for m in measurements), "the deepest that is fitted")}
+    return read_points(file, INPUT["velocity"], (DEPTH,), deepest)
 
 
 def _fit_figure(

@@ -70,11 +70,23 @@ def test_without_uncertainties_the_scatter_gives_the_error(tmp_path: Path) -> No
          "does"),
         ("v,x,X/R\n500,7.6,1\n", "FILE has both a depth and a normalized depth: leave one of them "
          "out"),
-        ("v\n500\n", "FILE has no column 'depth': name one so, such as 'depth [m]' (it has 'v')"),
-        ("v,x\n500,7.6\n", "FILE: line 2: the depth is 6.91e+05 times the radius: does the depth's "
-         "head lack a unit, such as 'depth [um]'?"),
-        ("velocty [m/s],x\n500,7.6\n", "FILE has no column 'velocity': name 'velocty [m/s]' so, "
-         "such as 'velocity [m/s]' (it has 'velocty [m/s]', 'x')"),
+        ("v\n500\n", "FILE has no column 'depth': it needs one such as 'depth [um]' (it has 'v')"),
+        ("v,x\n500,7.6\n", "FILE, line 2: the depth is 6.91e+05 times the radius: is it in um? "
+         "Then write 'x [um]'"),
+        ("v,Depth [mm]\n400,6.1\n500,7.6\n", "FILE, line 2: the depth is 555 times the radius: is "
+         "it in um? Then write 'Depth [um]'"),
+        ("v,x\n500,7.6 mm\n", "FILE, line 2: the depth is 691 times the radius: is it in um? Then "
+         "write '7.6 um'"),
+        ("v,x [nm]\n500,7.6\n", "FILE, line 2: the depth is 0.000691 times the radius: is it in "
+         "um? Then write 'x [um]'"),
+        ("v,X/R\n500,0.6\n500,40\n500,47\n", "FILE, line 3: the depth is 40 times the radius: is "
+         "it in %? Then write 'X/R [%]'"),
+        ("v,X/R [%]\n500,0.4\n", "FILE, line 2: the depth is 0.004 times the radius: is it no "
+         "percentage? Then write 'X/R [1]'"),
+        ("v,x [um]\n500,7600\n500,7.6\n500,7.7\n", "FILE, line 2: the depth is 691 times the "
+         "radius: unlike most others: is it a slip?"),
+        ("velocty [m/s],x\n500,7.6\n", "FILE has no column 'velocity': rename 'velocty [m/s]' to "
+         "'velocity [m/s]' (it has 'velocty [m/s]', 'x')"),
         ("v,x\n", "FILE: has no row of numbers below a row of heads"),
     ],
 )  # fmt: skip
@@ -102,6 +114,31 @@ def test_bad_rows_are_named_by_file_line_and_column(
 )  # fmt: skip
 def test_options_that_say_nothing_are_refused(arguments: str, line: str) -> None:
     assert coldspray("fit", EXAMPLE, *arguments.split()) == (2, "", f"coldspray fit: {line}\n")
+
+
+@pytest.mark.parametrize(
+    ("head", "option"),
+    [
+        ("radius [um]", "--radius"),
+        ("diameter [um]", "--radius"),
+        ("target density", "--target-density"),
+        ("particle density", "--particle-density"),
+    ],
+)
+def test_an_input_is_a_column_or_an_option_but_not_both(
+    head: str, option: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text(f"v,x [um],{head}\n500,7.6,11\n", "utf-8")
+    line = f"{option}: {file} has the column '{head}': leave out one of the two"
+    assert coldspray("fit", file, option, "5e-6") == (2, "", f"coldspray fit: {line}\n")
+
+
+def test_a_percentage_is_said_to_be_a_share(tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text("v,x [um],sd [%]\n500,7.6,3\n450,7,3\n", "utf-8")
+    note = f"{file}: 'sd [%]' is taken as a share of the depth in its line"
+    assert json.loads(coldspray("fit", file, "--json")[1])["notes"] == [note]
 
 
 def test_a_case_without_the_other_factor_cannot_give_this_one(tmp_path: Path) -> None:

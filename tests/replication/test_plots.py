@@ -365,6 +365,33 @@ def test_an_error_that_an_axis_shows_is_no_uncertainty(tmp_path: Path) -> None:
     assert points.columns[plots.UNCERTAINTY] == [0.1e-6]
 
 
+@pytest.mark.parametrize(
+    ("command", "content", "line"),
+    [
+        ("history", "time,depth\n0,0\n5,2.4\n",
+         "line 3: 'time' is 1.92e+08 times the time until rest: is it in ns? Then write "
+         "'time [ns]'"),
+        ("sheet", "time [ns],depth\n0,0\n5,2.4\n",
+         "line 3: 'depth' is 3.13e+05 times the final depth: is it in um? Then write 'depth [um]'"),
+        ("converge", "dt,x [um]\n0.1,7.6\n0.2,7.7\n",
+         "line 3: 'dt' is 7.67e+06 times the time until rest: is it in ns? Then write 'dt [ns]'"),
+        ("fit", "v,x\n300,4.5\n",
+         "line 2: 'x' is 4.09e+05 times the deepest that is fitted: is it in um? Then write "
+         "'x [um]'"),
+    ],
+)  # fmt: skip
+def test_own_points_without_a_unit_that_are_far_off_are_asked_about(
+    command: str, content: str, line: str, tmp_path: Path
+) -> None:
+    """Against the time until rest, 26.079 ns, and the depths: 7.675 um, and 10.99 um in fit.csv."""
+    file = tmp_path / "mine.csv"
+    file.write_text(content, "utf-8")
+    files = [MEASURED] if command == "fit" else []
+    drawn = coldspray(command, *files, "--plot", tmp_path / "mine.svg", "--data", file)
+    assert drawn == (2, "", f"coldspray {command}: {file}, {line}\n")
+    assert not (tmp_path / "mine.svg").exists()
+
+
 def test_a_fit_draws_further_points_that_it_does_not_fit(tmp_path: Path) -> None:
     (tmp_path / "others.csv").write_text("velocity [m/s],depth [um]\n450,7\n650,10\n")
     figure = tmp_path / "fit.svg"
