@@ -262,7 +262,7 @@ def fit(impact: Impact, measurements: Sequence[Measurement], quantity: str = "re
     scale = math.fsum(m.depth for m in measurements) / len(measurements)
     resistance = _least_squares(measurements, uncertainties or [scale] * len(measurements))
     residuals = tuple(m.depth - final_depth(*m.impact, resistance) for m in measurements)
-    slopes = [_depth_slope(m, resistance) for m in measurements]
+    slopes = [depth_slope(m, resistance) for m in measurements]
     chi_square = error = None
     if uncertainties:
         pairs = list(zip(residuals, slopes, uncertainties, strict=True))
@@ -288,7 +288,7 @@ def check_factor(impact: Impact, quantity: str) -> float:
     return other_factor(impact, quantity) if quantity in OTHER_FACTOR else 1.0
 
 
-def _depth_slope(measurement: Measurement, resistance: float) -> float:
+def depth_slope(measurement: Measurement, resistance: float) -> float:
     """Return dX / d ln R_t [m], which is negative."""
     velocity, _, *densities = measurement.impact
     by_input = elasticities(velocity, densities[0], densities[1], resistance)
@@ -315,7 +315,7 @@ def _least_squares(measurements: Sequence[Measurement], uncertainties: Sequence[
     def slopes(log_resistance: "Sequence[float]") -> list[list[float]]:
         R_t = math.exp(log_resistance[0])
         pairs = zip(measurements, uncertainties, strict=True)
-        return [[_depth_slope(m, R_t) / sigma] for m, sigma in pairs]
+        return [[depth_slope(m, R_t) / sigma] for m, sigma in pairs]
 
     bounds = math.log(single[0]) - 1, math.log(single[-1]) + 1
     # The tolerances are those of doubles: a step below them changes nothing.

@@ -21,7 +21,7 @@ from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.motion import history, stop_time
 from replication.models.sheet import Sheet
-from replication.text import number
+from replication.text import number, with_error
 from spreadsheets.safely import check_target
 from spreadsheets.styles import CURVES
 
@@ -554,12 +554,14 @@ def plot_fit(
 
 
 def _fitted(fit: Fit) -> str:
-    """Return the fitted quantity with its standard error, such as "resistance 3.5 ± 0.1 GPa"."""
+    """Return the fitted quantity with its standard error, such as "resistance 3.50 ± 0.10 GPa"."""
     unit, scale = {"beta": ("", 1.0), "flow_stress": (" MPa", 1e-6)}.get(
         fit.quantity, (" GPa", 1e-9)
     )
-    error = "" if fit.standard_error is None else f" ± {number(fit.standard_error * scale, 2)}"
-    return f"fitted {fit.quantity.replace('_', ' ')} {number(fit.value * scale, 4)}{error}{unit}"
+    shown = number(fit.value * scale, 4)
+    if fit.standard_error is not None:
+        shown = with_error(fit.value * scale, fit.standard_error * scale)
+    return f"fitted {fit.quantity.replace('_', ' ')} {shown}{unit}"
 
 
 # Sweeps

@@ -19,7 +19,7 @@ FLOORS: tuple[set[str], ...] = (
     {"spreadsheets", "page", "user_input", "text", "separated"},
     {"cases", "columns"},
     {"asked_unit", "error", "fit", "solve"},
-    {"audit"},
+    {"audit", "misfit"},
     {"workbook", "power", "plots"},
     {"bench", "sweep", "check", "report"},
     {"cli"},

@@ -1,6 +1,7 @@
 """`coldspray fit`: fit the resistance, or a factor of it, to measured depths."""
 
 import argparse
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -15,6 +16,7 @@ from replication.cli.case import (
     doubt,
     given_inputs,
     input_in_words,
+    input_rounded,
     inputs_in_words,
     refuse_sought,
 )
@@ -33,7 +35,9 @@ from replication.fit import (
     note_of_share,
     own_resistance,
 )
+from replication.misfit import IMPROBABLE, ROUNDING, chance_of_chi_square, far_off, worst
 from replication.models.depth import final_depth
+from replication.models.impact import Impact
 from replication.text import aligned, in_percent, number, numbers
 from replication.user_input import place, quoted
 
@@ -87,7 +91,8 @@ def run(options: argparse.Namespace) -> int:
     notes += note_of_share(known.get("uncertainty"), measured) + notes_on(points)
     with place(str(options.file)):
         fitted = fit(case, measurements, quantity)
-    warnings = list(dict.fromkeys([*warnings, *_doubts(fitted, measurements, options.file)]))
+    warnings += _doubts(fitted, measurements, options.file)
+    warnings = list(dict.fromkeys([*warnings, *_misfits(case, fitted, measurements, options.file)]))
     inputs = _common_inputs(measurements)
     if divisor := OTHER_FACTOR.get(quantity):
         inputs[divisor] = fitted.resistance / fitted.value
@@ -191,6 +196,35 @@ def _doubts(fitted: Fit, measurements: Sequence[Measurement], file: Path) -> lis
     return warnings + doubt(fitted.quantity, fitted.value, f"the fitted {quantity}", typed=False)
 
 
+def _misfits(
+    case: Impact, fitted: Fit, measurements: Sequence[Measurement], file: Path
+) -> list[str]:
+    """Return a warning if chi square is improbably large, or if a measurement is far off."""
+    chance = chance_of_chi_square(fitted)
+    if chance is not None and chance < IMPROBABLE:
+        row, off = worst(fitted, measurements)
+        return [
+            f"{file}: so large a chi square has {_chance(chance)}: the uncertainties do not "
+            "account for the residuals, and the standard error by them means little; line "
+            f"{measurements[row].line} is off by most, {number(off, 3)} uncertainties"
+        ]
+    if outlier := far_off(case, fitted, measurements):
+        line = measurements[outlier.number].line
+        by = f"{number(abs(outlier.excess) * 1e6, 3)} um {'more' if outlier.excess > 0 else 'less'}"
+        quantity = fitted.quantity.replace("_", " ")
+        value = input_rounded(fitted.quantity, outlier.without.value, 4)
+        return [
+            f"{file}: line {line} is far off the others: {by} than they give, "
+            f"{number(outlier.deviations, 3)} standard deviations, which has "
+            f"{_chance(outlier.chance)}; it was fitted, too: without it the {quantity} is {value}"
+        ]
+    return []
+
+
+def _chance(chance: float) -> str:
+    return f"a chance of {number(chance, 2) if chance > 1e-99 else 'less than 1e-99'}"
+
+
 def _fitted_rows(fitted: Fit, measurements: Sequence[Measurement]) -> list[dict[str, float | None]]:
     """Return the measurements in SI units, each with its line, its fitted depth and residual."""
     return [
@@ -213,12 +247,17 @@ def _fit_text(fitted: Fit, inputs: Mapping[str, float], rows: Sequence[Mapping[s
     """Return the inputs, a table of the measurements, and the fitted value below it."""
     weighted = fitted.chi_square is not None
     heads = ("line", "velocity [m/s]", "x [um]", "fitted [um]", "residual [um]")
-    table = [
-        (row["line"], row["velocity"], row["depth"] * 1e6)
-        + tuple(float(f"{row[name] * 1e6:.4g}") for name in ("fitted_depth", "residual"))
-        + ((float(f"{row['residual'] / row['uncertainty']:.3g}"),) if weighted else ())
-        for row in rows
-    ]
+    typical = math.hypot(*fitted.residuals) / math.sqrt(fitted.points)
+    table = []
+    for row in rows:
+        # Where the sum of squares is least it is flat, so that its place has half of the digits of
+        # a double, 2^-26 of what the residuals are; and a depth has its own rounding.
+        least = 2.0**-26 * typical + ROUNDING * row["depth"]
+        residual = row["residual"] if abs(row["residual"]) > least else 0.0
+        cells = [row["line"], row["velocity"], row["depth"] * 1e6]
+        cells += [float(f"{x * 1e6:.4g}") for x in (row["fitted_depth"], residual)]
+        cells += [float(f"{residual / row['uncertainty']:.3g}")] if weighted else []
+        table.append(cells)
     name = fitted.quantity.replace("_", " ")
     results = [(name, input_in_words(fitted.quantity, fitted.value))]
     if fitted.standard_error is None:

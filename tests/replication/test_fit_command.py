@@ -165,6 +165,48 @@ def test_a_value_that_no_impact_has_is_named_by_its_line(
     assert expected in coldspray("fit", file)[2]
 
 
+def test_a_chi_square_that_is_improbable_is_warned_of(tmp_path: Path) -> None:
+    """The depth of line 7, at 420 m/s, is ten times too large: some 270 uncertainties."""
+    file = tmp_path / "mine.csv"
+    file.write_text(EXAMPLE.read_text("utf-8").replace("\n420,6.31,", "\n420,63.1,"), "utf-8")
+    status, out, err = coldspray("fit", file)
+    assert (status, out.count("\n4 ")) == (0, 1)
+    assert err == (
+        f"coldspray fit: warning: {file}: so large a chi square has a chance of less than 1e-99: "
+        "the uncertainties do not account for the residuals, and the standard error by them means "
+        "little; line 7 is off by most, 271 uncertainties\n"
+    )
+    assert json.loads(coldspray("fit", file, "--json")[1])["warnings"] == [
+        err.removeprefix("coldspray fit: warning: ").strip()
+    ]
+    assert coldspray("fit", EXAMPLE)[2] == ""
+
+
+def test_a_line_that_is_far_off_the_others_is_named_and_fitted(tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    depths = {300: 4.441, 350: 5.156, 400: 6.053, 450: 69.343, 500: 7.849, 550: 8.498}
+    rows = "".join(f"{velocity},{depth}\n" for velocity, depth in depths.items())
+    file.write_text(f"v,x [um]\n{rows}", "utf-8")
+    status, _, err = coldspray("fit", file)
+    assert status == 0
+    assert err.startswith(
+        f"coldspray fit: warning: {file}: line 5 is far off the others: 62.5 um more than they give"
+    )
+    assert json.loads(coldspray("fit", file, "--json")[1])["points"] == 6
+    file.write_text(f"v,x [um]\n{rows.replace('69.343', '6.9343')}", "utf-8")
+    assert coldspray("fit", file)[2] == ""
+
+
+@pytest.mark.parametrize("rows", ["300,4.46\n", "500,7.6\n500,7.7\n500,7.8\n"])
+def test_a_residual_that_is_rounding_is_printed_as_zero(rows: str, tmp_path: Path) -> None:
+    """Of three depths at one velocity the mean is fitted, which is the second of these."""
+    file = tmp_path / "mine.csv"
+    file.write_text(f"v,x [um]\n{rows}", "utf-8")
+    lines = coldspray("fit", file)[1].splitlines()
+    fitted = lines[3] if rows.count("\n") == 1 else lines[4]
+    assert fitted.split()[-1] == "0"
+
+
 def test_columns_that_are_not_known_are_named(tmp_path: Path) -> None:
     file = tmp_path / "mine.csv"
     file.write_text("shot,v,x [um],size [um]\n1,500,7.6,20\n2,400,6.1,20\n", "utf-8")

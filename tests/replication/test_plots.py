@@ -322,7 +322,8 @@ def test_a_fit_names_its_result(drawings: dict[str, bytes]) -> None:
     measurements = read_measurements(MEASURED, BETA_5)
     result = fit(BETA_5, measurements)
     assert result.standard_error is not None
-    words = f"fitted resistance {result.value / 1e9:.4g} ± {result.standard_error / 1e9:.2g} GPa"
+    # The standard error is 0.059 GPa: two digits of it are three decimals.
+    words = f"fitted resistance {result.value / 1e9:.3f} ± {result.standard_error / 1e9:.3f} GPa"
     assert words in shown(drawings["fit"])
 
 
