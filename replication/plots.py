@@ -457,6 +457,10 @@ _PARTS = {
 """The parts of an error (`replication.error.ladder`), in words, and how they are drawn."""
 
 
+_MOST_TICKS = 16
+"""The most time steps that can be read beside each other on an axis."""
+
+
 def plot_converge(
     impact: Impact, record: Mapping[str, Any], title: str = "", points: Points | None = None
 ) -> "Figure":
@@ -486,9 +490,13 @@ def plot_converge(
             if own_errors is None:
                 own_errors = [depth - record["exact"] for depth in points.columns[DEPTH]]
             _draw_own_points(panel, STEP.shown(own_steps), _sizes(own_errors), None, points.file)
-        panel.set_xticks(steps, [number(step, 3) for step in steps], minor=False)
+        ticks = {number(step, 3): step for step in steps.tolist()}
+        if points:
+            own_ticks = {number(step, 3): step for step in STEP.shown(own_steps).tolist()}
+            ticks |= own_ticks if len(ticks | own_ticks) <= _MOST_TICKS else {}
+        panel.set_xticks([*ticks.values()], [*ticks], minor=False)
         panel.xaxis.minorticks_off()
-        panel.tick_params(axis="x", labelrotation=45 if len(steps) > 8 else 0)
+        panel.tick_params(axis="x", labelrotation=45 if len(ticks) > 8 else 0)
         panel.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
         return figure
 
@@ -502,7 +510,7 @@ def _guide(panel: "Axes", steps: Any, errors: Any, order: int) -> None:
     """Draw how an error of the scheme's order falls, from the greatest error on."""
     if not errors[0] > 0:
         return
-    power = {1: "h", 2: "h²"}[order]
+    power = {1: "dt", 2: "dt²"}[order]
     line = errors[0] * (steps / steps[0]) ** order
     panel.plot(
         steps, line, color=SHADE, linewidth=0.8, zorder=1, label=f"order {order}: as {power}"
@@ -707,19 +715,31 @@ def _curves(
             where: Any = (*at[:position], slice(None), *at[position:], 0)
             exact = y.shown(_grid(results[column], axes)[where])
             mark = "" if sheet or len(inputs) > MARKS else look.marker
-            panel.plot(inputs, exact, label=label or "exact", marker=mark, **look.of_line)
+            # The line stands over the marks, which are hollow: both can be seen where they agree.
+            settings: dict[str, Any] = {**look.of_line, "marker": mark, "zorder": 3}
+            panel.plot(inputs, exact, label=label or "exact", **settings)
             if sheet:
                 marks, every = y.shown(_grid(sheet[column], axes)[where]), _every(len(inputs))
                 words = f"{label}, the sheet" if label else "the sheet"
-                panel.plot(inputs[::every], marks[::every], label=words, **look.of_marks)
+                hollow = {**look.of_marks, "markerfacecolor": "white"}
+                panel.plot(inputs[::every], marks[::every], label=words, **hollow)
         panel.set_ylabel(y.title)
         if points:
-            points.draw(panel, x, y)
+            _with_ratio(points, results).draw(panel, x, y)
         if _is_wide(inputs):
             _make_logarithmic(panel, "x", *("y" if y is DEPTH else ""))
         _legend(panel)
     panels[-1].set_xlabel(x.title)
     return figure
+
+
+def _with_ratio(points: Points, results: SweepResults) -> Points:
+    """Return the points with X/R where they have a depth alone, and the sweep has one radius."""
+    radius = float(results["radius"][0])
+    if RATIO in points.columns or (results["radius"] != radius).any():
+        return points
+    ratios = [depth / radius for depth in points.columns[DEPTH]]
+    return Points(points.file, {**points.columns, RATIO: ratios}, points.notes)
 
 
 def _every(count: int) -> int:
@@ -763,7 +783,10 @@ def _contours(
             norm = BoundaryNorm(levels, 256, extend="both")
             panel.contourf(*inputs, values, levels, norm=norm, **shades)
             lines = panel.contour(*inputs, values, levels, colors=INK, linewidths=0.8)
-            panel.clabel(lines, fontsize=8, fmt="%g")
+            labels = panel.clabel(lines, fontsize=8, fmt="%g", inline=False)
+            for label in labels:  # legible on its line, and whole within the panel
+                label.set_clip_on(False)
+                label.set_bbox({"facecolor": "#ffffffcc", "edgecolor": "none", "pad": 0.6})
         else:
             panel.set(xlim=(inputs[0].min(), inputs[0].max()))
             panel.set(ylim=(inputs[1].min(), inputs[1].max()))

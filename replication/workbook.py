@@ -33,11 +33,10 @@ from spreadsheets.sheets import messages, workbook_plan
 from spreadsheets.sheets.audit import AS_PRINTED, LIVE_VERDICTS, OTHERWISE, AuditResult
 from spreadsheets.sheets.case import CaseSheet, prepared_rows
 from spreadsheets.sheets.convergence import LEVELS, NO_ORDER, SMALL, run_inputs
-from spreadsheets.sheets.figure_5 import FIGURE_5_POINTS
+from spreadsheets.sheets.figures import FIGURE_5_POINTS
 from spreadsheets.sheets.inputs import InputLine, input_lines
 from spreadsheets.sheets.solve import MEASURED
-from spreadsheets.sheets.table_a1 import ABOVE, TABLE_ROWS
-from spreadsheets.sheets.table_a1_check import DECIMALS, NO_DIFFERENCE
+from spreadsheets.sheets.table_a1 import ABOVE, DECIMALS, NO_DIFFERENCE, TABLE_ROWS
 from spreadsheets.verify import rounding_bound
 
 
@@ -443,7 +442,7 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
     of_runs = {}
     for name in run_inputs([page for page, _ in runs]):
         of_runs[name] = inputs[name] * SMALL[name][0] if name in SMALL else inputs[name]
-    values: Tree = {"message": messages.CURRENT}
+    values: Tree = {"message": messages.CURRENT, "says": messages.CURRENT, "all_same": 1}
     for page, sheet in runs:
         time_steps = ladder(sheet.impact.step, LEVELS)
         rest = depth.final_depth(**sheet.impact.motion) * 1e6

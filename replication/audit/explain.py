@@ -22,7 +22,7 @@ from replication.audit.record import BackSolved, Proof, Repair
 from replication.audit.verdict import (
     Judge,
     Replacements,
-    agrees,
+    comes_out,
     disagreeing,
     follows,
     is_contradicted,
@@ -174,7 +174,7 @@ class Explainer:
         claim = changed.claims[name]
         if claim.computation is not None:
             pairs = product(claim.computations, self._alternatives)
-            return next((r for r, values in pairs if agrees(changed, claim, values, r)), None)
+            return next((r for r, values in pairs if comes_out(changed, claim, values, r)), None)
         own = entry == name and self.judge.is_confirmed(claim, claim.value)
         related = own or entry in compared_with(name)
         return "" if related and not is_contradicted(changed, name) else None

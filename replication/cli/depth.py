@@ -35,6 +35,9 @@ MODELS_IN_WORDS = {
 }
 """What each model is, in a line."""
 
+DEFAULT_MODEL = "rigid"
+"""The model by which a depth is computed if none is named."""
+
 OPTIONS = {
     "resistance": "--frank-zook-resistance",
     "length_ratio": "--length-ratio",
@@ -53,8 +56,9 @@ RESISTANCE = {"resistance", "beta", "flow_stress"}
 def add_options(parser: argparse.ArgumentParser) -> None:
     which = parser.add_mutually_exclusive_group()
     which.add_argument(
-        "--model", metavar="NAME", type=one_of("model", DEPTH_MODELS), default="rigid",
-        help=f"by which model: {', '.join(DEPTH_MODELS)} (default: %(default)s)",
+        # Without a default of its own: argparse would accept that beside --models.
+        "--model", metavar="NAME", type=one_of("model", DEPTH_MODELS),
+        help=f"by which model: {', '.join(DEPTH_MODELS)} (default: {DEFAULT_MODEL})",
     )  # fmt: skip
     which.add_argument("--models", action="store_true", help="by all of them, side by side")
     parser.add_argument(
@@ -82,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
     """Print the depth X [um and m], X/R, and whether X exceeds R, of one model or of each."""
     case, warnings = case_of(options)
     typed = given_inputs(options)
-    names = list(DEPTH_MODELS) if options.models else [options.model]
+    names = list(DEPTH_MODELS) if options.models else [options.model or DEFAULT_MODEL]
     _refuse_without_say(options, typed, names)
     own = _own_inputs(options, names)
     results = [_result(name, case, own, typed) for name in names]
@@ -97,7 +101,7 @@ def run(options: argparse.Namespace) -> int:
     record: dict[str, Any] = {"inputs": inputs_of(case), "models": results}
     if not options.models:
         (record,) = results
-        if options.model == "rigid":
+        if names == ["rigid"]:
             record = record | {"inputs": inputs_of(case)}
     record = record | {"penetration_threshold": threshold, "warnings": warnings}
 
@@ -229,7 +233,7 @@ def _about_threshold(case: Impact, strength: float | None, threshold: float | No
     """Return what the threshold [m/s] of a particle's strength [Pa] means: it is no depth."""
     if strength is None or threshold is None:
         return []
-    particle = f"a particle of strength Y_p {number(strength / 1e6)} MPa"
+    particle = f"a particle of strength Y_p {number(strength / 1e9)} GPa"
     resistance = f"the case's resistance R_t {number(case.target_resistance / 1e9)} GPa"
     if threshold == 0:
         shown_threshold = "none: every velocity penetrates"

@@ -98,7 +98,9 @@ def times(option: str, text: str, most: int) -> list[float]:
     for position, time in enumerate(texts, 1):
         with place(f"{option}, value {position}"):
             values.append(read_number(time, "s"))
-            if not 0 <= values[-1] <= 1e250:
+            if values[-1] < 0:
+                raise ValueError(f"{quoted(time)} is negative: give a time of zero or more")
+            if values[-1] > 1e250:
                 raise ValueError(f"{quoted(time)} is not between 0 and 1e250 s")
     return values
 

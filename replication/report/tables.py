@@ -38,7 +38,7 @@ def facts(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, 
         "to 25 digits": first and first.reference,
         "proven range": first and between(first.judgements[0].ends),
         "off by": error is not None
-        and record.verdict.is_open
+        and record.verdict.needs_explanation
         and f"{number(error, 3)} units of the last printed digit",
         "computed from": first and ", ".join(inputs),
         "for instance (SI)": first and _values(first.judgements[0].witness or {}),
@@ -111,7 +111,7 @@ def not_as_printed(record: r.Record) -> Table:
 
     Each reading of an equation has a column.
     """
-    failing = [entry for entry in record.claims if entry.verdict.is_open]
+    failing = [entry for entry in record.claims if entry.verdict.needs_explanation]
     constants = (entry.assessment.constants for entry in record.equations)
     needed = {name: constant.needed for own in constants for name, constant in own.items()}
     as_printed = "computed as printed"

@@ -102,7 +102,7 @@ def shown_range(effect: r.Effect) -> str:
 def condition(record: r.ClaimRecord) -> str:
     """Return under which conventions a verdict holds, unless `USUAL_CONDITIONS` says it."""
     first = record.as_printed
-    said = record.verdict.is_open or (first is not None and first.otherwise)
+    said = record.verdict.needs_explanation or (first is not None and first.otherwise)
     return record.scope if said else ""
 
 
@@ -171,7 +171,7 @@ def if_choices_are_rounded(record: r.Record) -> str:
     named = [
         f"{claim.claim.shown} as {reading.name}"
         for claim in record.claims
-        if claim.verdict.is_open
+        if claim.verdict.needs_explanation
         for reading in claim.assessment.readings
         for judgement in reading.otherwise
         if judgement.convention == rounded and judgement.verdict is Verdict.WITHIN_ROUNDING

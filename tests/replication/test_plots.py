@@ -108,7 +108,7 @@ FIGURES: dict[str, tuple[Callable[[Path], Figure], int]] = {
     "converge": (drawn_ladder, 2),
     "fit": (drawn_fit, 22),
     "fit-of-radii": (drawn_fit_of_radii, 4),
-    "sweep-one": (drawn_sweep("one", MEASURED), 11),
+    "sweep-one": (drawn_sweep("one", MEASURED), 22),
     "sweep-two": (drawn_sweep("two"), 0),
     "sweep-map": (drawn_sweep("map"), 0),
     "sweep-still": (drawn_sweep("still"), 0),

@@ -222,7 +222,7 @@ def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[ShownValue]:
         return allowed_beside(ending, *UNUSABLE_INPUTS[bad[name]])
     if key.startswith("is_") and key.removeprefix("is_") in INPUTS_SAY:
         return {float(key == "is_unusable")}
-    if key.startswith(("trust", "convergence.same")) or ending == "inputs_changed":
+    if key.startswith("trust") or ending == "inputs_changed":
         return {0.0}
     if ending == "inputs_unusable":
         return {float(len(bad))}
