@@ -614,11 +614,25 @@ def check_sweep(axes: Mapping[str, int], samples: int, drawn: bool) -> None:
         )
 
 
-def sweep_points(axes: Mapping[str, int], drawn: bool) -> Callable[[Path], Points]:
-    """Return a reader of one's own points for the figure of a sweep."""
+def sweep_points(
+    axes: Mapping[str, int], drawn: bool, greatest: Mapping[str, float] = {}
+) -> Callable[[Path], Points]:
+    """Return a reader of one's own points for the figure of a sweep.
+
+    `greatest` has the greatest value [SI] of each input, which says how far the axes reach.
+    """
     x = None if drawn else INPUT[_across(axes)]
     ys = (INPUT[_vertical_input(axes)],) if not drawn and _is_map(axes) else (DEPTH, RATIO)
-    return lambda path: read_points(path, x, ys)
+    reach = {
+        quantity: (greatest[name], f"the largest {name.replace('_', ' ')} of the plan")
+        for quantity, name in (
+            (DEPTH, "radius"),
+            (INPUT["radius"], "radius"),
+            (INPUT["step"], "step"),
+        )
+        if name in greatest
+    }
+    return lambda path: read_points(path, x, ys, reach)
 
 
 def _across(axes: Mapping[str, int]) -> str:

@@ -57,8 +57,8 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "file", metavar="DATA.csv", type=path,
         help="columns, each with a head such as 'velocity [m/s]' and 'depth [um]' or "
-        "'normalized depth'; maybe 'uncertainty [um]', of the depths, and the other inputs by "
-        "name; of a 'diameter [um]' the radius is half",
+        "'normalized depth'; maybe 'uncertainty [um]' or '[%%]', of the depths, and the other "
+        "inputs by name; of a 'diameter [um]' the radius is half",
     )  # fmt: skip
     parser.add_argument(
         "--quantity", metavar="NAME", type=one_of("quantity", FITTED_NAMES), default="resistance",

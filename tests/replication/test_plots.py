@@ -379,15 +379,20 @@ def test_an_error_that_an_axis_shows_is_no_uncertainty(tmp_path: Path) -> None:
         ("fit", "v,x\n300,4.5\n",
          "line 2: 'x' is 4.09e+05 times the deepest that is fitted: is it in um? Then write "
          "'x [um]'"),
+        ("sweep", "v,x\n450,6.6\n",
+         "line 2: 'x' is 6e+05 times the largest radius of the plan: is it in um? Then write "
+         "'x [um]'"),
     ],
 )  # fmt: skip
 def test_own_points_without_a_unit_that_are_far_off_are_asked_about(
     command: str, content: str, line: str, tmp_path: Path
 ) -> None:
-    """Against the time until rest, 26.079 ns, and the depths: 7.675 um, and 10.99 um in fit.csv."""
+    """Against the time until rest, 26.079 ns; the depths, 7.675 um, and 10.99 um in fit.csv; and
+    the radius, 11 um."""
     file = tmp_path / "mine.csv"
     file.write_text(content, "utf-8")
-    files = [MEASURED] if command == "fit" else []
+    plan = ROOT / "docs" / "sweeps" / "figure-5.toml"
+    files = {"fit": [MEASURED], "sweep": [plan, "-o", tmp_path / "mine.out.csv"]}.get(command, [])
     drawn = coldspray(command, *files, "--plot", tmp_path / "mine.svg", "--data", file)
     assert drawn == (2, "", f"coldspray {command}: {file}, {line}\n")
     assert not (tmp_path / "mine.svg").exists()
