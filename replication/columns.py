@@ -21,7 +21,14 @@ from replication.separated import (
     plain_number,
     separated_rows,
 )
-from replication.user_input import content_of, number_parts, place, quoted, read_number
+from replication.user_input import (
+    content_of,
+    number_parts,
+    place,
+    quoted,
+    read_number,
+    typed_unit,
+)
 
 LARGEST_FILE = 2**26
 
@@ -95,12 +102,11 @@ class Column:
                 f"own, 'uncertainty{unit_here}'"
             )
         plain = self._with_point(text)
-        parts = number_parts(plain)
-        if parts is None:
-            plain = text
-        elif own and is_known(parts[1]) and to_si(parts[1]) != to_si(own):
-            raise ValueError(f"{quoted(text)} has another unit than the head of its column")
-        return read_number(plain, unit, own)
+        if not plain[-1:].isdigit() and own:  # it may have a unit of its own
+            typed = typed_unit(plain)
+            if is_known(typed) and to_si(typed) != to_si(own):
+                raise ValueError(f"{quoted(text)} has another unit than the head of its column")
+        return read_number(plain if number_parts(plain) else text, unit, own)
 
 
 def bad_rows(errors: Sequence[tuple[int, ValueError]]) -> ValueError:
