@@ -142,7 +142,7 @@ class Audit(Results):
         equations = _Evaluations(self.ledger.sides)
         compute = self.ledger.function(claim, equations=equations)
         with suppress(ArithmeticError):  # the value itself may be irrational
-            compute(Rationals(), **{entry: self.judge.value(entry) for entry in claim.entries})
+            compute(Rationals(), **{entry: self.judge.value(entry) for entry in claim.input_ids})
         if equations.last is None:
             return None
         equation, values = equations.last  # which may give the value itself

@@ -10,7 +10,7 @@ from dataclasses import replace
 from math import isfinite
 from statistics import NormalDist
 
-from reference.ledger import Convention
+from reference.ledger import READ_AS_PRINTED, Convention
 from reference.scheme import Scheme
 from replication.audit import record as r
 from replication.audit.inference import DENSITY
@@ -56,7 +56,7 @@ def approaches(results: Results) -> list[r.Approach]:
             claim=claim, shown=claims[claim].shown if claim else "",
         )  # fmt: skip
 
-    def of_claim(kind: str, name: str, claim: str, reading: str = "") -> r.Approach:
+    def of_claim(kind: str, name: str, claim: str, reading: str = READ_AS_PRINTED) -> r.Approach:
         return r.Approach(
             kind=kind, name=name, claim=claim, shown=claims[claim].shown,
             computed=_value(lambda: results.reading(claim, reading).computed),

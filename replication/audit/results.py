@@ -3,7 +3,7 @@
 from fractions import Fraction
 from functools import cache, partial
 
-from reference.ledger import Ledger, claims_of_case
+from reference.ledger import READ_AS_PRINTED, Ledger, claims_of_case
 from reference.printed import decimal_text
 from reference.units import to_si
 from replication.audit.assessment import Reading, Verdict
@@ -55,7 +55,7 @@ class Results:
         """Return the unit of a claim's last printed digit, in SI."""
         return self.ledger.claims[claim].number.quantum * self.ledger.claims[claim].si
 
-    def computed(self, claim: str, reading: str = "") -> float:
+    def computed(self, claim: str, reading: str = READ_AS_PRINTED) -> float:
         """Return what the models compute for a claim by one of its readings, in SI."""
         return self.reading(claim, reading).computed * float(self.ledger.claims[claim].si)
 
@@ -71,7 +71,7 @@ class Results:
         computed = (c.id for c in claims if c.is_computed and c.id.startswith(prefix))
         return {self.verdict(name) for name in computed}
 
-    def reading(self, claim: str, name: str = "") -> Reading:
+    def reading(self, claim: str, name: str = READ_AS_PRINTED) -> Reading:
         """Return one reading of a claim. Raises ArithmeticError if it has no value."""
         for reading in self.judge.assess(self.ledger.claims[claim]).readings:
             if reading.name == name:

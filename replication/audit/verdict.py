@@ -11,9 +11,9 @@ from msgspec.structs import replace
 
 from reference.arithmetic import Floats, InexactError, Rationals, Reals
 from reference.derivations import Check, derive
-from reference.enclosure import Box, Ends, enclose, satisfying
+from reference.enclosure import Box, Ends, Satisfiability, enclose, satisfying
 from reference.equations import EquationError, dimension
-from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, in_header
+from reference.ledger import INFERRED, READ_AS_PRINTED, Claim, Convention, Ledger, Source, in_header
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
 from reference.units import Dimension, DimensionError
@@ -236,11 +236,13 @@ class Judge:
         It is a number of `mpmath` with 50 digits.
         """
         function = self.ledger.function(claim, reading=reading)
-        value = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
+        value = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.input_ids})
         exact = _REALS.number(value) if isinstance(value, Fraction) else value
         return exact / _REALS.number(claim.si)
 
-    def modelled(self, claim: Claim, reading: str = "", scheme: Scheme = Scheme.PUBLISHED) -> float:
+    def modelled(
+        self, claim: Claim, reading: str = READ_AS_PRINTED, scheme: Scheme = Scheme.PUBLISHED
+    ) -> float:
         """Return the models' value of a claim for its inputs as printed, in SI."""
         computation = claim.computations[reading]
         inputs = {key: float(prod(map(self.value, names))) for key, names in claim.inputs.items()}
@@ -266,7 +268,7 @@ class Judge:
                     yield Judgement(convention, Verdict.REPRODUCED, admitted)
                 elif target.encloses(*at_print):
                     # Only some admitted values give it, and the evidence does not tell which holds.
-                    witness = {entry: self.value(entry) for entry in claim.entries}
+                    witness = {entry: self.value(entry) for entry in claim.input_ids}
                     yield Judgement(convention, Verdict.WITHIN_ROUNDING, admitted, witness)
                 else:
                     yield Judgement(convention, Verdict.UNDECIDED, admitted)
@@ -284,7 +286,7 @@ class Judge:
             return Judgement(convention, Verdict.NOT_REPRODUCED, ends)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         constraints = [(function, target)]
-        witnessed = set(claim.entries)
+        witnessed = set(claim.input_ids)
         for entry in claim.inferred:
             inference = self.inference(entry, scheme=convention.scheme)
             constraints, box = inference.joint(convention, box, constraints)
@@ -292,7 +294,7 @@ class Judge:
                 witnessed.add(inference.entry.mass)
         outcome, point = satisfying(constraints, box, budget)
         witness = point and {entry: x for entry, x in point.items() if entry in witnessed}
-        against_evidence = bool(claim.inferred) and outcome is False
+        against_evidence = bool(claim.inferred) and outcome is Satisfiability.REFUTED
         return Judgement(convention, _VERDICTS[outcome], ends, witness, against_evidence)
 
     # Public sources, and choices that other claims confirm
@@ -349,11 +351,11 @@ class Judge:
 
     def inputs_as_printed(self, claim: Claim) -> Box:
         """Return the inputs of a claim as printed or, where they are inferred, as assumed."""
-        return {entry: (self.value(entry),) * 2 for entry in claim.entries}
+        return {entry: (self.value(entry),) * 2 for entry in claim.input_ids}
 
     def inputs_as_rounded(self, claim: Claim, convention: Convention) -> Box:
         """Return the ranges of a claim's inputs, each as `rounded` has it."""
-        return {entry: self.rounded(entry, convention).ends for entry in claim.entries}
+        return {entry: self.rounded(entry, convention).ends for entry in claim.input_ids}
 
     def rounded(self, entry: str, convention: Convention) -> Interval:
         """Return the values of an input (SI) that print like it, or that its evidence admits."""
@@ -383,8 +385,10 @@ class Judge:
 
 
 _VERDICTS = {
-    True: Verdict.WITHIN_ROUNDING, False: Verdict.NOT_REPRODUCED, None: Verdict.UNDECIDED,
-}  # fmt: skip
+    Satisfiability.SHOWN: Verdict.WITHIN_ROUNDING,
+    Satisfiability.REFUTED: Verdict.NOT_REPRODUCED,
+    Satisfiability.UNDECIDED: Verdict.UNDECIDED,
+}
 """The verdict by whether inputs that print like the report's can give the number."""
 
 _BUDGET = 100
@@ -423,11 +427,13 @@ Replacements = Mapping[str, Fraction]
 """Values of some entries (SI) in place of the printed ones."""
 
 
-def comes_out(ledger: Ledger, claim: Claim, changed: Replacements, reading: str = "") -> bool:
+def comes_out(
+    ledger: Ledger, claim: Claim, changed: Replacements, reading: str = READ_AS_PRINTED
+) -> bool:
     """Return whether a claim is what its computation gives, in doubles, some entries changed."""
     if claim.restates:
         return is_consistent(ledger, claim)
-    target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
+    target, values = claim.target(), {name: ledger.value(name) for name in claim.input_ids}
     inputs = {name: float(changed.get(name, value)) for name, value in values.items()}
     try:
         value = Fraction(ledger.function(claim, reading=reading)(Floats(), **inputs))

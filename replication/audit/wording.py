@@ -137,7 +137,7 @@ def scope(claim: Claim, reading: Reading) -> str:
     return f"{sentence}."
 
 
-class Departure(StrEnum):
+class ConventionDeparture(StrEnum):
     """A way in which a convention departs from the usual one, in words."""
 
     EVEN = "ties to even"
@@ -147,7 +147,7 @@ class Departure(StrEnum):
     CENTERED = "the drag at the middle velocity"
 
 
-def departures(convention: Convention) -> tuple[Departure, ...]:
+def departures(convention: Convention) -> tuple[ConventionDeparture, ...]:
     """Return in what a convention departs from the usual one.
 
     >>> [str(departure) for departure in departures(Convention(Rounding.CUT, header_exact=True))]
@@ -155,15 +155,15 @@ def departures(convention: Convention) -> tuple[Departure, ...]:
     """
     departing = []
     if convention.rounding is Rounding.EVEN:
-        departing.append(Departure.EVEN)
+        departing.append(ConventionDeparture.EVEN)
     if convention.rounding is Rounding.CUT:
-        departing.append(Departure.CUT)
+        departing.append(ConventionDeparture.CUT)
     if not convention.choices_exact:
-        departing.append(Departure.CHOICES_ROUNDED)
+        departing.append(ConventionDeparture.CHOICES_ROUNDED)
     if convention.header_exact:
-        departing.append(Departure.HEADER_EXACT)
+        departing.append(ConventionDeparture.HEADER_EXACT)
     if convention.scheme is Scheme.CENTERED:
-        departing.append(Departure.CENTERED)
+        departing.append(ConventionDeparture.CENTERED)
     return tuple(departing)
 
 
@@ -183,33 +183,33 @@ def _conditions_met(claim: Claim, reading: Reading) -> str:
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def _roundings_met(failing: Collection[Departure]) -> str:
-    if Departure.CUT in failing:
+def _roundings_met(failing: Collection[ConventionDeparture]) -> str:
+    if ConventionDeparture.CUT in failing:
         return "both ways of rounding to nearest"
     return "three ways of rounding"
 
 
-def _choices_met(failing: Collection[Departure]) -> str:
-    if Departure.CHOICES_ROUNDED in failing:
+def _choices_met(failing: Collection[ConventionDeparture]) -> str:
+    if ConventionDeparture.CHOICES_ROUNDED in failing:
         return "the author's choices exact"
     return "the author's choices exact or rounded"
 
 
-def _headers_met(failing: Collection[Departure]) -> str:
-    if Departure.HEADER_EXACT in failing:
+def _headers_met(failing: Collection[ConventionDeparture]) -> str:
+    if ConventionDeparture.HEADER_EXACT in failing:
         return "the header of Table A-1 rounded"
     return "the header of Table A-1 exact or rounded"
 
 
-def _schemes_met(failing: Collection[Departure]) -> str:
-    if Departure.CENTERED in failing:
+def _schemes_met(failing: Collection[ConventionDeparture]) -> str:
+    if ConventionDeparture.CENTERED in failing:
         return "the drag at the initial velocity"
     return "both schemes"
 
 
-def _unmet(reading: Reading) -> dict[Verdict, list[tuple[Departure, ...]]]:
+def _unmet(reading: Reading) -> dict[Verdict, list[tuple[ConventionDeparture, ...]]]:
     """Return the other verdicts, each with the sets of departures that give it."""
-    unmet: dict[Verdict, list[tuple[Departure, ...]]] = {}
+    unmet: dict[Verdict, list[tuple[ConventionDeparture, ...]]] = {}
     for judgement in reading.otherwise:
         unmet.setdefault(judgement.verdict, []).append(departures(judgement.convention))
     # A set that includes a smaller one adds nothing.
@@ -222,8 +222,8 @@ def _unmet(reading: Reading) -> dict[Verdict, list[tuple[Departure, ...]]]:
 def _exceptions(claim: Claim, reading: Reading) -> str:
     """Return the other verdicts and the conventions that give them; empty if there are none."""
 
-    def in_words(departure: Departure) -> str:
-        if departure is Departure.CUT and claim.inferred:
+    def in_words(departure: ConventionDeparture) -> str:
+        if departure is ConventionDeparture.CUT and claim.inferred:
             # The evidence for its inferred inputs is rounded to nearest under every convention.
             return f"{departure} of this number alone"
         return departure

@@ -76,7 +76,7 @@ def test_claim(claim: Claim, record: Record) -> None:
     assert judged.verdict == expected(claim)
     assert judged.explanation.endswith(".")
     known = LEDGER.claims.keys() | {INFERRED + key for key in LEDGER.inferred}
-    assert set(claim.entries) <= known
+    assert set(claim.input_ids) <= known
     assert len(judged.scopes) == len(judged.assessment.readings)
     assert all(scope.endswith(".") for scope in judged.scopes)
     if judged.as_printed is not None:
