@@ -82,15 +82,21 @@ def run(options: argparse.Namespace) -> int:
     known = measurement_columns(columns)
     _refuse_twice(given, known)
     measurements = measurements_in(known, case)
-    _ask_for_unit(known, measurements)
+    measured = known.get("depth") or known["normalized_depth"]
+    asked = _unit_asked(measured, measurements, per_radius="depth" not in known)
+    if asked and not measured.unit:
+        raise ValueError(asked)
     points = checked(
         options, lambda file: _further_points(file, measurements), options.file, options.case_file
     )
-    measured = known.get("depth") or known["normalized_depth"]
     notes = note_of_unused(columns, known.values())
     notes += note_of_share(known.get("uncertainty"), measured) + notes_on(points)
-    with place(str(options.file)):
-        fitted = fit(case, measurements, quantity)
+    try:
+        with place(str(options.file)):
+            fitted = fit(case, measurements, quantity)
+    except ValueError as error:
+        raise ValueError(asked or str(error)) from error
+    warnings += [asked] if asked else []
     warnings += _doubts(fitted, measurements, options.file)
     warnings = list(dict.fromkeys([*warnings, *_misfits(case, fitted, measurements, options.file)]))
     inputs = _common_inputs(measurements)
@@ -123,16 +129,13 @@ def _refuse_twice(given: Mapping[str, str], known: Mapping[str, Column]) -> None
             raise ValueError(f"{option(name)}: {has}: leave out one of the two")
 
 
-def _ask_for_unit(known: Mapping[str, Column], measurements: Sequence[Measurement]) -> None:
-    """Raise ValueError that names the first depth that is probably in another unit than it says.
+def _unit_asked(column: Column, measurements: Sequence[Measurement], *, per_radius: bool) -> str:
+    """Return a question that names the first depth that may be in another unit than it says, or "".
 
     By itself it gives a resistance that no target has, from inputs as an impact has them; in the
-    other unit the resistance is as expected.
+    other unit the resistance is as expected. per_radius: the column is of X/R.
     """
-    column, units = known.get("depth"), LENGTH_UNITS
-    if column is None:
-        column, units = known["normalized_depth"], SHARE_UNITS
-    per_radius = units is SHARE_UNITS
+    units = SHARE_UNITS if per_radius else LENGTH_UNITS
 
     def is_expected(m: Measurement, value: float) -> bool:
         depth = value * m.radius if per_radius else value
@@ -152,7 +155,8 @@ def _ask_for_unit(known: Mapping[str, Column], measurements: Sequence[Measuremen
             if 2 * len(odd) < len(measurements):
                 asked = "unlike most others: is it a slip?"
             radii = f"the depth is {m.depth / m.radius:.3g} times the radius"
-            raise ValueError(f"{column.file}, line {m.line}: {radii}: {asked}")
+            return f"{column.file}, line {m.line}: {radii}: {asked}"
+    return ""
 
 
 def _further_points(file: Path, measurements: Sequence[Measurement]) -> "Points":

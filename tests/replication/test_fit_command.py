@@ -73,18 +73,12 @@ def test_without_uncertainties_the_scatter_gives_the_error(tmp_path: Path) -> No
         ("v\n500\n", "FILE has no column 'depth': it needs one such as 'depth [um]' (it has 'v')"),
         ("v,x\n500,7.6\n", "FILE, line 2: the depth is 6.91e+05 times the radius: is it in um? "
          "Then write 'x [um]'"),
-        ("v,Depth [mm]\n400,6.1\n500,7.6\n", "FILE, line 2: the depth is 555 times the radius: is "
-         "it in um? Then write 'Depth [um]'"),
         ("v,x\n500,7.6 mm\n", "FILE, line 2: the depth is 691 times the radius: is it in um? Then "
          "write '7.6 um'"),
-        ("v,x [nm]\n500,7.6\n", "FILE, line 2: the depth is 0.000691 times the radius: is it in "
-         "um? Then write 'x [um]'"),
+        ("v,x [mm]\n500,10\n", "FILE, line 2: the depth is 909 times the radius: is it in um? Then "
+         "write 'x [um]'"),
         ("v,X/R\n500,0.6\n500,40\n500,47\n", "FILE, line 3: the depth is 40 times the radius: is "
          "it in %? Then write 'X/R [%]'"),
-        ("v,X/R [%]\n500,0.4\n", "FILE, line 2: the depth is 0.004 times the radius: is it no "
-         "percentage? Then write 'X/R [1]'"),
-        ("v,x [um]\n500,7600\n500,7.6\n500,7.7\n", "FILE, line 2: the depth is 691 times the "
-         "radius: unlike most others: is it a slip?"),
         ("velocty [m/s],x\n500,7.6\n", "FILE has no column 'velocity': rename 'velocty [m/s]' to "
          "'velocity [m/s]' (it has 'velocty [m/s]', 'x')"),
         ("v,x\n", "FILE: has no row of numbers below a row of heads"),
@@ -97,6 +91,29 @@ def test_bad_rows_are_named_by_file_line_and_column(
     Path("mine.csv").write_text(content, "utf-8")
     line = line.replace("FILE", "mine.csv")
     assert coldspray("fit", "mine.csv") == (2, "", f"coldspray fit: {line}\n")
+
+
+@pytest.mark.parametrize(
+    ("content", "line"),
+    [
+        ("v,Depth [mm]\n400,6.1\n500,7.6\n", "line 2: the depth is 555 times the radius: is "
+         "it in um? Then write 'Depth [um]'"),
+        ("v,x [nm]\n500,7.6\n", "line 2: the depth is 0.000691 times the radius: is it in "
+         "um? Then write 'x [um]'"),
+        ("v,X/R [%]\n500,0.4\n", "line 2: the depth is 0.004 times the radius: is it no "
+         "percentage? Then write 'X/R [1]'"),
+        ("v,x [um]\n500,7600\n500,7.6\n500,7.7\n", "line 2: the depth is 691 times the "
+         "radius: unlike most others: is it a slip?"),
+    ],
+)  # fmt: skip
+def test_a_stated_unit_is_believed_where_a_fit_can_be_computed_and_asked_about(
+    content: str, line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mine.csv").write_text(content, "utf-8")
+    status, _, err = coldspray("fit", "mine.csv")
+    assert status == 0
+    assert err.startswith(f"coldspray fit: warning: mine.csv, {line}\n")
 
 
 @pytest.mark.parametrize(
