@@ -33,11 +33,10 @@ from spreadsheets.sheets import messages, workbook_plan
 from spreadsheets.sheets.audit import AS_PRINTED, LIVE_VERDICTS, OTHERWISE, AuditResult
 from spreadsheets.sheets.case import CaseSheet, prepared_rows
 from spreadsheets.sheets.convergence import LEVELS, NO_ORDER, SMALL, run_inputs
-from spreadsheets.sheets.figure_5 import FIGURE_5_POINTS
+from spreadsheets.sheets.figures import FIGURE_5_POINTS
 from spreadsheets.sheets.inputs import InputLine, input_lines
 from spreadsheets.sheets.solve import MEASURED
-from spreadsheets.sheets.table_a1 import ABOVE, TABLE_ROWS
-from spreadsheets.sheets.table_a1_check import DECIMALS, NO_DIFFERENCE
+from spreadsheets.sheets.table_a1 import ABOVE, DECIMALS, NO_DIFFERENCE, TABLE_ROWS
 from spreadsheets.verify import rounding_bound
 
 
@@ -443,7 +442,7 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
     of_runs = {}
     for name in run_inputs([page for page, _ in runs]):
         of_runs[name] = inputs[name] * SMALL[name][0] if name in SMALL else inputs[name]
-    values: Tree = {"message": messages.CURRENT}
+    values: Tree = {"message": messages.CURRENT, "says": messages.CURRENT, "all_same": 1}
     for page, sheet in runs:
         time_steps = ladder(sheet.impact.step, LEVELS)
         rest = depth.final_depth(**sheet.impact.motion) * 1e6
@@ -554,7 +553,8 @@ def _solve(ledger: Ledger, runs: Runs) -> Tree:
     typed = float(ledger.value(MEASURED) / to_si("um"))
     x = _si(typed, "um")
     shared = runs[0][1].impact
-    v, radius, particle, target, _ = shared.motion.values()
+    v, radius = shared.velocity, shared.radius
+    particle, target = shared.particle_density, shared.target_density
     y = x / radius
     ratio = crater.crater_volume_ratio(y)
     logarithm = ratio * (target / particle)
@@ -664,7 +664,8 @@ def _without_steps(impact: Impact, to_stop: bool = False) -> dict[str, float]:
     p = rho_t (V^2 - u^2) / (2 R_t + rho_t u^2) [1], `ln` is ln(1 + p), `c` is
     (4 rho_p / 3 rho_t) ln(1 + p), and `h` the angle asin(sqrt(3c)/2)/3 with c of at most 2/3.
     """
-    v, radius, particle, target, r_t = impact.motion.values()
+    v, radius, r_t = impact.velocity, impact.radius, impact.target_resistance
+    particle, target = impact.particle_density, impact.target_density
     u, reached = 0.0, depth.normalized_depth(v, particle, target, r_t)
     if to_stop:
         u = min(impact.stop_velocity, v)  # an impact below the stop velocity has depth 0

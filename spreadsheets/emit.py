@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from reference.units import written
-from spreadsheets.plan import ROW_HEIGHT, Cell, Chart, SheetPlan, ShownValue, WorkbookPlan
+from spreadsheets.plan import Cell, Chart, SheetPlan, ShownValue, WorkbookPlan
 from spreadsheets.safely import UNREADABLE, check_target
 from spreadsheets.styles import CURVES, RULES, STYLES
 
@@ -77,7 +77,7 @@ _CORRECTIONS = (
     # All columns after Z are unlocked as Z is; XlsxWriter would look at each of them in each row.
     (
         "xl/worksheets/",
-        rb'(max="26" width="[\d.]+" style="(\d+)"/>)</cols>',
+        rb'(max="26" width="[\d.]+" style="(\d+)"[^>]*/>)</cols>',
         rb'\1<col min="27" max="16384" width="9.140625" style="\2"/></cols>',
     ),
 )
@@ -149,9 +149,10 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, ShownValue]) -> bytes:
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.shown, cell.wrap, bool(cell.formula))
             _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
-            # A width is counted in digits, and most letters are narrower than a digit.
-            if cell.wrap and len(cell.text) > 1.2 * sheet.widths[address[0]]:
-                page.set_row(int(address[1:]) - 1, 2 * ROW_HEIGHT)
+            if cell.style == "title":
+                page.set_row(int(address[1:]) - 1, TITLE_HEIGHT)
+            if takes_two_lines(sheet, address, cell):
+                page.set_row(int(address[1:]) - 1, 2 * sheet.row_height)
             if cell.named:
                 named = f"={_absolute(sheet.name, address)}"
                 if book.define_name(cell.key, named) == -1:
@@ -164,13 +165,21 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, ShownValue]) -> bytes:
                 "format": book.add_format(RULES[rule.style]),
             }
             page.conditional_format(rule.cells, options)
-        if sheet.chart:
-            drawn = sheet.chart.sheet or sheet.name
-            _draw(book, page, drawn, sheet.chart, shown[drawn], values)
+        for chart in sheet.charts:
+            drawn = chart.sheet or sheet.name
+            _draw(book, page, drawn, chart, shown[drawn], values)
     book.close()
     parts = _archive_parts(file.getvalue())
     corrected = {name: _corrected(name, part) for name, part in parts.items()}
     return _zipped(_sealed(corrected))
+
+
+def takes_two_lines(sheet: SheetPlan, address: str, cell: Cell) -> bool:
+    """Whether the text of a cell is wrapped, so that its row is twice as high.
+
+    A width is counted in digits, and most letters are narrower than a digit.
+    """
+    return cell.wrap and len(cell.text) > 1.2 * sheet.widths[address[0]]
 
 
 def _corrected(name: str, part: bytes) -> bytes:
@@ -180,8 +189,11 @@ def _corrected(name: str, part: bytes) -> bytes:
     return part
 
 
-MARGINS = {"left": 0.25, "right": 0.25, "top": 0.45, "bottom": 0.33}
+MARGINS = {"left": 0.25, "right": 0.25, "top": 0.42, "bottom": 0.32}
 """Of a printed page, in inches."""
+
+TITLE_HEIGHT = 18
+"""Height of the row of a sheet's title in points."""
 
 _FREE = (
     "objects", "scenarios", "format_cells", "format_columns", "format_rows", "insert_columns",
@@ -203,12 +215,11 @@ def _set_up(page: Any, sheet: SheetPlan, unlocked: Any) -> None:
     page.set_column("A:Z", None, unlocked)
     for column, width in sheet.widths.items():
         page.set_column(f"{column}:{column}", width, unlocked)
-    page.set_default_row(ROW_HEIGHT)
-    page.set_row(0, 18)  # the title
+    page.set_default_row(sheet.row_height)
     page.set_portrait() if sheet.portrait else page.set_landscape()
     page.set_paper(1)  # US Letter
     page.set_margins(**MARGINS)
-    page.fit_to_pages(1, int(sheet.one_page))  # 0 pages high: as many as it takes
+    page.fit_to_pages(1, sheet.most_pages)
     page.set_header('&L&"Arial"&8&F&R&"Arial"&8&A', {"margin": 0.22})
     page.set_footer('&R&"Arial"&8Page &P of &N', {"margin": 0.2})
     if sheet.print_area:

@@ -119,10 +119,8 @@ def address(row: int, column: int) -> str:
 # Engines that pip installs
 
 
-class IronCalc(Engine):
-    """IronCalc; its unformatted getter gives exact doubles, while the formatted ones round."""
-
-    name = "ironcalc"
+class FromPip(Engine):
+    """An engine that is a Python package of the same name."""
 
     def missing(self) -> str | None:
         reason = f"The Python package {self.name} is not installed: run pip install {self.name}."
@@ -130,6 +128,12 @@ class IronCalc(Engine):
 
     def version(self) -> str:
         return version(self.name)
+
+
+class IronCalc(FromPip):
+    """IronCalc; its unformatted getter gives exact doubles, while the formatted ones round."""
+
+    name = "ironcalc"
 
     def _cells(self, path: Path) -> Iterator[AddressedValue]:
         import ironcalc
@@ -144,14 +148,13 @@ class IronCalc(Engine):
             yield names[sheet], address(row, column), model.get_cell_value(sheet, row, column)
 
 
-class Formualizer(IronCalc):
-    """Formualizer; it cannot list the cells of a workbook, so IronCalc lists them."""
+class Formualizer(FromPip):
+    """Formualizer, the fastest: it takes an eighth of the time of IronCalc."""
 
     name = "formualizer"
 
     def _cells(self, path: Path) -> Iterator[AddressedValue]:
         import formualizer
-        from openpyxl.utils.cell import coordinate_to_tuple
 
         try:
             workbook = formualizer.load_workbook(str(path))
@@ -160,11 +163,32 @@ class Formualizer(IronCalc):
         except (OSError, formualizer.ExcelEvaluationError) as error:
             raise EngineError(self.name, f"cannot read {path}: {error}") from error
         named = {"Div": "#DIV/0!", "Na": "#N/A", "Name": "#NAME?"}
-        for sheet, place, _ in super()._cells(path):
-            value = workbook.get_value(sheet, *coordinate_to_tuple(place))
-            if isinstance(value, dict):  # an error
-                value = named.get(value["kind"], f"#{value['kind'].upper()}!")
-            yield sheet, place, value
+        for sheet in workbook.sheet_names:
+            used = formualizer.RangeAddress(sheet, 1, 1, *_used(workbook, sheet))
+            for row, values in enumerate(workbook.sheet(sheet).get_values(used), start=1):
+                for column, value in enumerate(values, start=1):
+                    if isinstance(value, dict):  # an error
+                        value = named.get(value["kind"], f"#{value['kind'].upper()}!")
+                    yield sheet, address(row, column), value
+
+
+def _used(workbook: Any, sheet: str) -> tuple[int, int]:
+    """Return the last row and column that are used on a sheet of Formualizer, at least 1 and 1.
+
+    It tells them as it cuts whole columns to the rows in use, and whole rows to the columns.
+    """
+    from openpyxl.utils.cell import coordinate_to_tuple
+
+    quoted = "'" + sheet.replace("'", "''") + "'"
+    rows, columns = (
+        workbook.range_page(f"{quoted}!{whole}", limit=1, include_values=False).resolved
+        for whole in ("A:XFD", "1:1048576")
+    )
+    if rows is None or columns is None:
+        return 1, 1
+    row, _ = coordinate_to_tuple(rows.rpartition(":")[2])
+    _, column = coordinate_to_tuple(columns.rpartition(":")[2])
+    return row, column
 
 
 # Engines that the system installs

@@ -24,8 +24,8 @@ NOT_COMPUTED = "not computed"
 NOT_AVAILABLE = "#N/A"
 """The value of a cell that depends on an input that cannot be used, or on rows that are missing."""
 
-ROW_HEIGHT = 12.75
-"""Height of a row in points, for type of 10 points."""
+ROW_HEIGHT = 13.5
+"""Height of a row in points, for type of 10 points; a sheet of many rows may take less."""
 
 YES_OR_NO = '"yes";;"no"'
 """The number format that shows 1 as yes, and 0 as no."""
@@ -158,8 +158,9 @@ class SheetPlan:
     about: what the sheet shows, for `Overview`. row: where the next cells go. columns: those of
     symbol, meaning, value, unit, printed text and source in a `line`. headed: the first column that
     scrolls, and the first and last row of heads; heads do not scroll, and are repeated on every
-    printed page. portrait, one_page: how it is printed; the columns always fit the width of a
-    page. filtered: the cells of a table that has a filter.
+    printed page. portrait, most_pages: how it is printed; the columns always fit the width of a
+    page, and the rows so many pages (0: as many as they take). row_height: in points. filtered: the
+    cells of a table that has a filter.
     claims: the address of the cell that computes a claim, by the claim's id.
     """
 
@@ -172,10 +173,11 @@ class SheetPlan:
     columns: str = "ABCDEF"
     headed: tuple[str, int, int] | None = None
     rules: list[Rule] = field(default_factory=list)
-    chart: Chart | None = None
+    charts: list[Chart] = field(default_factory=list)
     print_area: str = ""
     portrait: bool = False
-    one_page: bool = False
+    most_pages: int = 0
+    row_height: float = ROW_HEIGHT
     filtered: str = ""
     claims: dict[str, str] = field(default_factory=dict)
 
@@ -272,7 +274,7 @@ class SheetPlan:
             source = str(self.ledger.claims[claim].place)
         cells = (
             symbol and Cell(symbol, "text"),
-            meaning and Cell(meaning),
+            meaning and Cell(meaning, "text"),
             value,
             unit_text(value.unit),
             claim and printed(self.ledger, claim, value.unit),

@@ -47,6 +47,9 @@ BY_NAME = {engine.name: engine for engine in ENGINES}
 FROM_PIP = ("ironcalc", "formualizer")
 """Engines that the tests require, since pip installs them; the system installs the others."""
 
+FASTEST = "formualizer"
+"""The engine for what need not be asked of every program."""
+
 
 def usable(name: str) -> Engine:
     """Return an engine, or skip or fail the test if it is missing."""

@@ -57,7 +57,7 @@ HISTORY_POINTS = 101
 class Case:
     """One case with its exact motion.
 
-    `times` [s], shape (HISTORY_POINTS,), run from touch to rest; `depths` [m] are the exact depths
+    `times` [s], shape (n,), run from touch to rest; `depths` [m] are the exact depths
     then.
     """
 
@@ -70,8 +70,9 @@ class Case:
     def columns(self, count: int) -> list[Any]:
         """The inputs of `count` cases, with velocities up to 10 % below and above this one's."""
         spread = 0.1 * (count > 1) * np.linspace(-1, 1, count)
-        velocity, *others = (np.full(count, value) for value in self.impact.motion.values())
-        return [velocity * (1 + spread), *others]
+        inputs = {name: np.full(count, value) for name, value in self.impact.motion.items()}
+        inputs["velocity"] *= 1 + spread
+        return list(inputs.values())
 
     def error(self, measure: Measure, answer: Any, stop: float = 0.0) -> float:
         """Return the largest relative error of depths [m], down to the velocity `stop` [m/s].
@@ -97,10 +98,12 @@ class Case:
         return float(np.max([float(abs(depth - true) / whole) for depth, true, whole in terms]))
 
 
-def build_case(name: str) -> Case:
-    """Build one of `BENCH_CASES`. Raises ValueError for another name.
+def build_case(name: str, points: int = HISTORY_POINTS) -> Case:
+    """Build one of `BENCH_CASES`, with its depths at so many times (at least two).
 
-    >>> case = build_case("beta-5")
+    Raises ValueError for another name.
+
+    >>> case = build_case("beta-5", points=11)
     >>> f"{case.times[-1] * 1e9:.3f} ns", f"{case.error('depth', 7.67e-6):.1e}"
     ('26.079 ns', '6.4e-04')
     """
@@ -108,10 +111,10 @@ def build_case(name: str) -> Case:
         raise ValueError(f"there is no case {quoted(name)} to time: {advice(name, BENCH_CASES)}")
     impact = changed(BETA_5, HARD_CASES[BENCH_CASES[name]])
     motion, times, depths = exact_motion(impact), list[float](), list[Number]()
-    for k in range(HISTORY_POINTS):
+    for k in range(points):
         # Depths X (1 - s^2), for equally spaced s, are about equally spaced in time. Finding the
         # time of a depth takes one quadrature; finding the depth at a time would take a dozen.
-        s = motion.reals.number(Fraction(HISTORY_POINTS - 1 - k, HISTORY_POINTS - 1))
+        s = motion.reals.number(Fraction(points - 1 - k, points - 1))
         depth = motion.final_depth * (1 - s * s)
         time = motion.time_to_depth(depth)
         times.append(float(time))

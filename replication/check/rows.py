@@ -44,6 +44,8 @@ _SMALL = 1e-6
 """Of decelerations that are a smaller part of the largest one, the absolute error counts."""
 _LEAST = 1e-280
 """A deceleration is larger: the square of its error is to be a double."""
+_SETTLED = EXACT / 1000
+"""A fit ends when a step changes its numbers by less: further steps change no digit that counts."""
 _RIDGE = 1e-12
 """What is added to each pivot, so that numbers that the rows do not tell stay where they are."""
 
@@ -416,25 +418,31 @@ def _mostly_beyond(rows: Sequence[ForceRow]) -> Iterator[ForceOfRows]:
 
 def _gradient(row: ForceRow, force: ForceOfRows) -> tuple[float, float, float]:
     """The derivatives of the deceleration by G, H and D."""
-    inside = row.x < force.D / 2 or not force.bounded
-    area = force.D * row.x - row.x * row.x if inside else force.D**2 / 4
-    by_D = (force.G * row.u**2 + force.H) * (row.x if inside else force.D / 2)
-    return row.u**2 * area, area, by_D
+    x, square, half = row.x, row.u * row.u, force.D / 2
+    inside = x < half or not force.bounded
+    area = force.D * x - x * x if inside else half * half
+    return square * area, area, (force.G * square + force.H) * (x if inside else half)
 
 
 def _normal(rows: Sequence[ForceRow], force: ForceOfRows) -> tuple[list[list[float]], list[float]]:
     """The normal equations of a change of G, H and D, each row with the weight of its digits."""
-    matrix, right = [[0.0] * 3 for _ in range(3)], [0.0] * 3
+    GG = GH = GD = HH = HD = DD = G_rest = H_rest = D_rest = 0.0
     for row in rows:
-        gradient, rest = _gradient(row, force), row.a - force.at(row.x, row.u)
+        by_G, by_H, by_D = _gradient(row, force)
         weight = (row.error * row.a) ** -2
-        for i in range(3):
-            right[i] += weight * gradient[i] * rest
-            for j in range(3):
-                matrix[i][j] += weight * gradient[i] * gradient[j]
-    for i in range(3):
-        matrix[i][i] *= 1 + _RIDGE
-    return matrix, right
+        weighted = weight * (row.a - force.at(row.x, row.u))
+        G_rest += by_G * weighted
+        H_rest += by_H * weighted
+        D_rest += by_D * weighted
+        GG += weight * by_G * by_G
+        GH += weight * by_G * by_H
+        GD += weight * by_G * by_D
+        HH += weight * by_H * by_H
+        HD += weight * by_H * by_D
+        DD += weight * by_D * by_D
+    ridge = 1 + _RIDGE
+    matrix = [[GG * ridge, GH, GD], [GH, HH * ridge, HD], [GD, HD, DD * ridge]]
+    return matrix, [G_rest, H_rest, D_rest]
 
 
 def _three_numbers(
@@ -451,7 +459,7 @@ def _three_numbers(
         force = force._replace(G=force.G + change[0], H=force.H + change[1], D=force.D + change[2])
         if not all(map(math.isfinite, force[:3])):
             return None
-        if max(map(abs, change)) < 1e-15 * max(map(abs, force[:3])):
+        if max(map(abs, change)) < _SETTLED * max(map(abs, force[:3])):
             break
     return force
 

@@ -15,9 +15,11 @@ from replication.check.taken import (
     six_in_columns,
     six_in_si,
 )
-from replication.check.words import as_known, title, with_si_unit
+from replication.check.words import MOST_DIGITS, as_known, title, with_si_unit
 from spreadsheets.foreign import Position
 
+_MORE_DIGITS = 6
+"""As two numbers that differ do so by more than `SAME`, so many digits more tell them apart."""
 _RATIOS = "the rows tell only the ratios of both densities and the resistance"
 
 
@@ -43,8 +45,8 @@ def tell_solved(exam: Examination) -> None:
         known = (*report_inputs()[role], *([OTHER_STEP] if role == "step" else []))
         if any(_agree(exam, entry.si, value, error) for value in known):
             continue
-        shown = with_si_unit(_told_apart(entry.si, error, known), role)
-        printed = " or ".join(with_si_unit(value, role) for value in report_inputs()[role])
+        texts = [with_si_unit(value, role) for value in report_inputs()[role]]
+        shown, printed = _unlike(texts, entry.si, error, role), " or ".join(texts)
         exam.other_inputs.append(f"{title(role)} {shown}")
         text = f"by the rows {title(role)} is {shown}, in the report {printed}"
         exam.add("other input", [_shown_in(exam, role)], None, text, entry.si)
@@ -69,24 +71,27 @@ def _is_force_of_report(exam: Examination, six: Six) -> bool:
     )
 
 
-def _told_apart(value: float, error: float, known: Sequence[float]) -> float:
-    """A number with the digits that its error leaves, or with more, to differ from some others.
-
-    >>> _told_apart(504.1, 5e-3, [500.0]), _told_apart(520.3, 5e-2, [500.0])
-    (504.0, 520.0)
-    """
-    shown = as_known(value, error)
-    while shown in known and error > 1e-10:
-        error /= 10
-        shown = as_known(value, error)
-    return shown
-
-
 def _agree(exam: Examination, value: float, wanted: float, error: float) -> bool:
     """Whether an input is the report's as far as the digits tell, in any unit if none is stated."""
     power = math.log10(value / wanted)
     off = power if exam.firm and exam.firm_speed else power - round(power)
     return abs(off) * math.log(10) <= max(SAME, error)
+
+
+def _unlike(texts: Sequence[str], value: float, error: float, role: str) -> str:
+    """An input as text, with as many digits as are known, or as tell it from these texts.
+
+    >>> _unlike(["500 m/s"], 449.98765, 1e-3, "velocity")
+    '450 m/s'
+    >>> _unlike(["500 m/s"], 500.004, 7e-6, "velocity")
+    '500.004 m/s'
+    """
+    text = ""
+    for more in range(_MORE_DIGITS + 1):
+        text = with_si_unit(as_known(value, error, more), role, MOST_DIGITS + more)
+        if text not in texts:
+            break
+    return text
 
 
 def _shown_in(exam: Examination, role: str) -> Position:

@@ -28,7 +28,7 @@ INPUT_UNITS = _WORDS["inputs"]
 """The inputs that a cell beside the table may hold, and their SI units."""
 _MEASURES = {**COLUMNS, **INPUT_UNITS}
 
-_MOST_DIGITS = 10
+MOST_DIGITS = 10
 """So many digits are shown of a number that was solved."""
 _MAX_LABEL = 80
 """The most characters of a text that are read."""
@@ -245,25 +245,25 @@ def title(role: str) -> str:
     return _WORDS["titles"].get(role) or f"the {role.replace('_', ' ')}"
 
 
-def with_si_unit(value: float, role: str) -> str:
-    """Return a value in SI units as text, with its unit.
+def with_si_unit(value: float, role: str, digits: int = 10) -> str:
+    """Return a value in SI units as text of so many digits, with its unit.
 
     >>> with_si_unit(11e-6, "radius"), with_si_unit(5.0, "beta")
     ('1.1e-05 m', '5')
     """
-    return with_unit(f"{value:.10g}", _MEASURES[role])
+    return with_unit(f"{value:.{digits}g}", _MEASURES[role])
 
 
-def as_known(value: float, error: float) -> float:
-    """Return a number with as many digits as its relative error leaves.
+def as_known(value: float, error: float, more: int = 0) -> float:
+    """Return a number with as many digits as its relative error leaves, and some more.
 
     >>> as_known(1.0999999999999986e-05, 1e-9), as_known(449.98765, 1e-3)
     (1.1e-05, 450.0)
     """
     if not (value and math.isfinite(value)):
         return value
-    digits = min(_MOST_DIGITS, max(2, math.floor(-math.log10(max(error, 1e-15)))))
-    return float(f"{value:.{digits - 1}e}")
+    digits = min(MOST_DIGITS, max(2, math.floor(-math.log10(max(error, 1e-15)))))
+    return float(f"{value:.{digits + more - 1}e}")
 
 
 def unit_name(role: str, power: int) -> str:

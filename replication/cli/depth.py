@@ -20,7 +20,7 @@ from replication.cli.case import (
 from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import paragraph, put, width
 from replication.models.estimates import penetration_threshold
-from replication.models.impact import Impact, check_each, check_inputs
+from replication.models.impact import Impact, check_magnitudes, check_positive
 from replication.text import aligned, columns, number, with_unit
 from replication.user_input import place, read_number
 
@@ -34,6 +34,9 @@ MODELS_IN_WORDS = {
     "frank-zook-printed": "Frank and Zook, by Eq. 16 as printed: half of what Eqs. 14 and 15 give",
 }
 """What each model is, in a line."""
+
+DEFAULT_MODEL = "rigid"
+"""The model by which a depth is computed if none is named."""
 
 OPTIONS = {
     "resistance": "--frank-zook-resistance",
@@ -53,8 +56,9 @@ RESISTANCE = {"resistance", "beta", "flow_stress"}
 def add_options(parser: argparse.ArgumentParser) -> None:
     which = parser.add_mutually_exclusive_group()
     which.add_argument(
-        "--model", metavar="NAME", type=one_of("model", DEPTH_MODELS), default="rigid",
-        help=f"by which model: {', '.join(DEPTH_MODELS)} (default: %(default)s)",
+        # Without a default of its own: argparse would accept that beside --models.
+        "--model", metavar="NAME", type=one_of("model", DEPTH_MODELS),
+        help=f"by which model: {', '.join(DEPTH_MODELS)} (default: {DEFAULT_MODEL})",
     )  # fmt: skip
     which.add_argument("--models", action="store_true", help="by all of them, side by side")
     parser.add_argument(
@@ -74,15 +78,16 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     for name, flag in OPTIONS.items():
         value = _shown(name, getattr(report.model, name))
         own.add_argument(
-            flag, metavar="X", help=f"{SYMBOLS[name]} ({value}, {report.sources[name]})"
-        )
+            flag, metavar="X", dest=f"own_{name}",
+            help=f"{SYMBOLS[name]} ({value}, {report.sources[name]})",
+        )  # fmt: skip
 
 
 def run(options: argparse.Namespace) -> int:
     """Print the depth X [um and m], X/R, and whether X exceeds R, of one model or of each."""
     case, warnings = case_of(options)
     typed = given_inputs(options)
-    names = list(DEPTH_MODELS) if options.models else [options.model]
+    names = list(DEPTH_MODELS) if options.models else [options.model or DEFAULT_MODEL]
     _refuse_without_say(options, typed, names)
     own = _own_inputs(options, names)
     results = [_result(name, case, own, typed) for name in names]
@@ -94,12 +99,14 @@ def run(options: argparse.Namespace) -> int:
             warnings += doubt("flow_stress", strength, "--particle-strength")
     if "resistance" in own:
         warnings += doubt("resistance", own["resistance"], OPTIONS["resistance"])
-    record: dict[str, Any] = {"inputs": inputs_of(case), "models": results}
-    if not options.models:
-        (record,) = results
-        if options.model == "rigid":
-            record = record | {"inputs": inputs_of(case)}
-    record = record | {"penetration_threshold": threshold, "warnings": warnings}
+    answer: dict[str, Any]
+    if options.models:
+        answer = {"inputs": inputs_of(case), "models": results}
+    elif names == ["rigid"]:  # with beta and flow stress, as the case has them
+        answer = {**results[0], "inputs": inputs_of(case)}
+    else:
+        answer = results[0]
+    record = {**answer, "penetration_threshold": threshold, "warnings": warnings}
 
     def text() -> str:
         depths = _all(case, results) if options.models else _depth_in_words(case, results[0])
@@ -126,7 +133,7 @@ def _refuse_without_say(
 
 def _own_inputs(options: argparse.Namespace, names: Sequence[str]) -> dict[str, float]:
     """Return the inputs given that are not the case's; ValueError if no model has them."""
-    texts = {name: getattr(options, flag[2:].replace("-", "_")) for name, flag in OPTIONS.items()}
+    texts = {name: getattr(options, f"own_{name}") for name in OPTIONS}
     texts = {name: text for name, text in texts.items() if text is not None}
     if texts and not any(DEPTH_MODELS[name].own for name in names):
         raise ValueError(
@@ -143,8 +150,8 @@ def _read_input(flag: str, name: str, text: str, unit: str) -> float:
     """Read a number for an input, which no case has, that the models can compute with."""
     with place(flag):
         value = read_number(text, unit)
-        check_inputs({name: value})
-        check_each(**{name: value})
+        check_positive({name: value})
+        check_magnitudes(**{name: value})
         return value
 
 
@@ -229,7 +236,7 @@ def _about_threshold(case: Impact, strength: float | None, threshold: float | No
     """Return what the threshold [m/s] of a particle's strength [Pa] means: it is no depth."""
     if strength is None or threshold is None:
         return []
-    particle = f"a particle of strength Y_p {number(strength / 1e6)} MPa"
+    particle = f"a particle of strength Y_p {number(strength / 1e9)} GPa"
     resistance = f"the case's resistance R_t {number(case.target_resistance / 1e9)} GPa"
     if threshold == 0:
         shown_threshold = "none: every velocity penetrates"

@@ -98,7 +98,9 @@ def times(option: str, text: str, most: int) -> list[float]:
     for position, time in enumerate(texts, 1):
         with place(f"{option}, value {position}"):
             values.append(read_number(time, "s"))
-            if not 0 <= values[-1] <= 1e250:
+            if values[-1] < 0:
+                raise ValueError(f"{quoted(time)} is negative: give a time of zero or more")
+            if values[-1] > 1e250:
                 raise ValueError(f"{quoted(time)} is not between 0 and 1e250 s")
     return values
 
@@ -119,7 +121,7 @@ def _check_units(option: str, texts: Sequence[str]) -> None:
     if plain and any(units):
         last = [unit for unit in units if unit][-1]
         meant = [text if typed_unit(text) else f"{text} {last}" for text in texts[:8]]
-        listed = ",".join(meant + ["..."] * (len(texts) > 8))
+        listed = ",".join([*meant, "..."] if len(texts) > len(meant) else meant)
         raise ValueError(
             f'{option}: {quoted(plain[0])} has no unit, and others have one: write "{listed}"'
         )

@@ -74,11 +74,13 @@ def run(options: argparse.Namespace) -> int:
     except InputError as error:
         if quantity == "radius":
             raise
-        radii = f"{depth / case.radius:.3g} times the radius"
-        problem = f"the depth is {radii}: {error}"
-        if meant := _meant(text, depth / case.radius):
-            problem = f'the depth is {radii}: did you mean "{meant}"?'
-        raise ValueError(f"{option(name)}: {problem}") from error
+        problem = f"no {_without_underscores(quantity)} that doubles can hold gives it"
+        if error.name != quantity:
+            problem = str(error)
+        if meant := _meant(name, text, case.radius):
+            problem = f"did you mean {meant}?"
+        radii = f"the depth is {depth / case.radius:.3g} times the radius"
+        raise ValueError(f"{option(name)}: {radii}: {problem}") from error
     if answer.value is not None:
         named = f"the {_without_underscores(quantity)} for this depth"
         warnings += doubt(quantity, answer.value, named, typed=False)
@@ -109,11 +111,15 @@ def _depth(name: str, text: str, quantity: str, case: Impact) -> float:
     return value if name == "depth" else value * case.radius
 
 
-def _meant(text: str, normalized_depth: float) -> str:
-    """Return the micrometres meant by a number without a unit that no depth [m] can be, or ""."""
-    is_plain = not text.strip()[-1:].isalpha()
-    in_um = is_plain and normalized_depth > 1e3 and 1e-3 < normalized_depth * 1e-6 < 1e3
-    return f"{text.strip()} um" if in_um else ""
+def _meant(name: str, text: str, radius: float) -> str:
+    """Return the depth in um that a number without a unit means, or "" if it can mean none."""
+    in_um = text.strip() + " um"
+    try:
+        normalized_depth = read_number(in_um, "m") / radius
+    except ValueError:  # it has a unit of its own
+        return ""
+    meant = f'"{in_um}"' if name == "depth" else f'--depth "{in_um}"'
+    return meant if 1e-3 < normalized_depth < 1e3 else ""
 
 
 def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:
@@ -134,8 +140,12 @@ def _solution_text(answer: Solution, texts: Mapping[str, str]) -> str:
         means = f"if the zeros that end a whole number count for none{none}"
         rows.append(("fewest digits", f"{ends}, {means}"))
     if answer.condition is not None:
-        means = "relative change of it for one of the depth"
-        rows.append(("condition", f"{number(answer.condition, 3)}: {means}"))
+        condition = number(answer.condition, 3)
+        means = "its relative change over that of the depth"
+        if abs(answer.condition) <= 10:  # so that a percent is a small change
+            way = "less" if answer.condition < 0 else "more"
+            means = f"1 % more depth is {condition.removeprefix('-')} % {way} {name}"
+        rows.append(("condition", f"{condition}: {means}"))
     return f"{paragraph(inputs_in_words(answer.inputs))}\n\n{columns(rows, min(width(), 100))}"
 
 

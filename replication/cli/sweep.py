@@ -4,6 +4,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from replication.cli.case import EXPECTED, doubt
 from replication.cli.options import add_json, add_quiet, path
 from replication.cli.output import progress, put
 from replication.cli.picture import add_plot, checked, drafted, notes_on
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from replication.sweep import Plan
 
 HELP = "run many cases from a TOML plan, to CSV or Parquet"
-EXAMPLE = "coldspray sweep docs/sweeps/grid.toml -o grid.parquet"
+EXAMPLE = "coldspray sweep docs/sweeps/figure-5.toml -o figure-5.csv"
 
 
 def add_options(parser: argparse.ArgumentParser) -> None:
@@ -51,11 +52,27 @@ def run(options: argparse.Namespace) -> int:
         drafted(options, lambda: _sweep_figure(options, plan, points)),
     ):
         write_sweep(plan, output, done=bar.update)
-    notes = notes_on(points)
+    notes, warnings = notes_on(points), _doubts(plan)
     record = {"file": str(output), "cases": plan.count, "columns": plan.columns}
-    record |= sweep_provenance(plan) | {"notes": notes}
-    text = f"Written: {one_line(str(output))} ({plan.count} cases)"
-    return put(options, record, lambda: text, notes=notes, quietly=True)
+    record |= sweep_provenance(plan) | {"notes": notes, "warnings": warnings}
+    cases = "1 case" if plan.count == 1 else f"{plan.count} cases"
+    text = f"Written: {one_line(str(output))} ({cases})"
+    return put(options, record, lambda: text, warnings=warnings, notes=notes, quietly=True)
+
+
+def _doubts(plan: "Plan") -> list[str]:
+    """Return a warning for every input of the plan with a value that no impact has."""
+    import numpy as np
+
+    warnings = []
+    for name, source in plan.sources.items():
+        if name in EXPECTED:
+            # A distribution may have tails that go beyond what is expected, but not its middle.
+            values = source.bounds if source.count else source.at(np.array([0.5])).tolist()
+            named = name.replace("_", " ")
+            odd = [words for value in values for words in doubt(name, value, named)]
+            warnings += odd[:1]
+    return warnings
 
 
 def _checked(options: argparse.Namespace, plan: "Plan", output: Path) -> "Points | None":
@@ -64,9 +81,10 @@ def _checked(options: argparse.Namespace, plan: "Plan", output: Path) -> "Points
         return checked(options, lambda _: None)
     from replication.plots import check_sweep, sweep_points
 
+    greatest = {name: source.bounds[1] for name, source in plan.sources.items()}
     with place(f"--plot: {options.plan}"):
         check_sweep(plan.axes, plan.samples, plan.is_drawn)
-    return checked(options, sweep_points(plan.axes, plan.is_drawn), options.plan, output)
+    return checked(options, sweep_points(plan.axes, plan.is_drawn, greatest), options.plan, output)
 
 
 def _sweep_figure(options: argparse.Namespace, plan: "Plan", points: "Points | None") -> "Figure":

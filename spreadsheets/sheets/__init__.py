@@ -15,32 +15,27 @@ from spreadsheets.sheets.audit import AuditResult, audit_sheet
 from spreadsheets.sheets.case import CaseSheet, case_sheet
 from spreadsheets.sheets.convergence import convergence
 from spreadsheets.sheets.crater import crater
-from spreadsheets.sheets.figure_3 import figure_3
-from spreadsheets.sheets.figure_5 import figure_5
-from spreadsheets.sheets.frank_zook import frank_zook
+from spreadsheets.sheets.figures import figures
 from spreadsheets.sheets.inputs import inputs_sheet
 from spreadsheets.sheets.overview import overview, program, title_of
 from spreadsheets.sheets.resistance import resistance
 from spreadsheets.sheets.solve import solve
 from spreadsheets.sheets.table_a1 import table_a1
-from spreadsheets.sheets.table_a1_check import table_a1_check
 
 
 def workbook_plan(
     ledger: Ledger, pages: Sequence[CaseSheet], audited: AuditResult | None = None
 ) -> WorkbookPlan:
-    """Plan the workbook for one or two cases; `Table A-1` and `Figure 5` show the last of them.
+    """Plan the workbook for one or two cases; `Table A-1` and Figure 5 show the last of them.
 
     With `audited` it is the report's own workbook, and also has what concerns only the report;
     `pages` must then contain the same cases with the coarser step, too.
     """
     report, cases = audited is not None, [page for page in pages if not page.coarse]
-    table = table_a1(ledger, cases[-1], report)
-    sheets = [inputs_sheet(ledger, cases, report), table]
-    sheets += [table_a1_check(ledger, table)] if report else []
+    sheets = [inputs_sheet(ledger, cases, report), table_a1(ledger, cases[-1], report)]
     sheets += [case_sheet(ledger, page) for page in pages]
-    sheets += [figure_3(ledger, cases), figure_5(ledger, cases[-1]), convergence(ledger, cases)]
-    sheets += [frank_zook(ledger), crater(ledger), resistance(ledger, cases), solve(ledger, cases)]
+    sheets += [figures(ledger, cases), convergence(ledger, cases), crater(ledger)]
+    sheets += [resistance(ledger, cases), solve(ledger, cases)]
     computed_in = WorkbookPlan(sheets=tuple(sheets)).claims
     sheets += [audit_sheet(ledger, audited, computed_in)] if audited else []
     sheets = [overview(ledger, pages, sheets, audited, computed_in), *sheets]
@@ -86,7 +81,7 @@ def cells_of_claims() -> Mapping[str, str]:
     """Return the cell of the report's workbook that computes a claim, by the claim's id.
 
     >>> cells_of_claims()["sphere-length-ratio"]
-    'Frank-Zook!C8'
+    'Resistance and Frank-Zook!C37'
     """
     ledger = load()
     cases = report_cases()
@@ -94,7 +89,6 @@ def cells_of_claims() -> Mapping[str, str]:
         inputs_sheet(ledger, cases, report=True),
         table_a1(ledger, cases[-1], report=True),
         *(case_sheet(ledger, case) for case in cases),
-        frank_zook(ledger),
         crater(ledger),
         resistance(ledger, cases),
     )

@@ -44,8 +44,8 @@ class AuditResult:
 
 _HEAD_ROW = 11
 _HEADS = (
-    ("Claim", 24), ("What", 46), ("Printed", 15), ("Unit", 8), ("Computed", 13),
-    ("Live verdict", 14), ("The audit’s verdict", 24), ("From", 11), ("To", 11),
+    ("Claim", 25), ("What", 54), ("Printed", 23), ("Unit", 7), ("Computed", 12),
+    ("Live verdict", 13.5), ("The audit’s verdict", 24), ("From", 11), ("To", 11),
     ("Number", 13), ("Above From", 12), ("Below To", 12), ("Prints so?", 15), ("Where", 34),
     ("Computed in", 20), ("Explanation", 60),
 )  # fmt: skip
@@ -79,7 +79,8 @@ def audit_sheet(
         " claims ID.",
         width=150,
     )
-    sheet.print_area, sheet.portrait = f"A1:G{last}", True
+    sheet.print_area, sheet.portrait, sheet.most_pages = f"A1:G{last}", True, 3
+    sheet.row_height = 12
     sheet.filtered = f"A{_HEAD_ROW}:P{last}"
     sheet.row = 6
     sheet.block("Live verdicts")
@@ -101,7 +102,7 @@ def _claim_row(ledger: Ledger, claim: Claim, audited: AuditResult) -> dict[str, 
     """Return a claim's row without what is live."""
     return {
         "A": Cell(claim.id),
-        "B": Cell(claim.title, wrap=True),
+        "B": Cell(claim.title, "text", wrap=True),
         "C": printed(ledger, claim.id, claim.unit, wrap=True),
         "D": unit_text(claim.unit),
         "F": Cell("–", "text"),

@@ -6,6 +6,7 @@ few rows, or if the time step is too long for the motion.
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from math import ceil
 from typing import NamedTuple
 
 from reference.ledger import Ledger
@@ -17,8 +18,14 @@ from spreadsheets.sheets.formulas import cap_angle, depth, log1p
 FIRST_ROW = 10
 """The row of the sheet that holds row 0 of the scheme, the impact itself."""
 
-_LAST_OF_A_PAGE = 82
-"""The last row of the sheet that a single page has room for, in type of 7 points."""
+_ROW_HEIGHT = 11.25
+"""In points: the report's two runs take two pages each."""
+
+_ROWS_OF_A_PAGE = 96
+"""The rows of the sheet that a page has room for, in type of 6.8 points."""
+
+_HEADS = 2
+"""The rows of heads, which every page repeats."""
 
 MAX_ROWS = 20_000
 """The most rows of a sheet; to write them takes half a minute and gigabytes of memory."""
@@ -166,7 +173,8 @@ ROW_COLUMNS: Mapping[str, RowColumn] = {
     "E": RowColumn("d²x/dt²", "deceleration", "m/s^2", "0.0000E+00", "deceleration"),
     "F": RowColumn("dx/dt final", "velocity_final", "m/s", "0.000", "velocity"),
     "G": RowColumn("x", "depth_um", "um", "0.0000", "depth_um"),
-    "H": RowColumn("dx/dt middle", "velocity_middle", "m/s", "0.000", "velocity"),
+    # After the number comes the room of two digits, since the results stand beside this column.
+    "H": RowColumn("dx/dt middle", "velocity_middle", "m/s", "0.000_0_0", "velocity"),
 }
 """The columns of the rows, by letter; H is that of the centered scheme only."""
 
@@ -221,12 +229,12 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     if case.coarse:
         about = "The same with the time step of the comparison, and what that changes (section 3)"
     sheet = SheetPlan(ledger=ledger, name=case.name, about=about, columns="IJKLMN")
-    sheet.widths = {"A": 4.5, "B": 8.5, "G": 8, "I": 8, "J": 29, "K": 10.5, "L": 7, "N": 26}
-    sheet.wide("M", 21 if case.coarse else 14)
-    sheet.wide("CF", 10)
-    sheet.wide("DE", 10)
+    sheet.widths = {"A": 4.5, "B": 8.5, "G": 8, "I": 8.5, "J": 33, "K": 10.5, "L": 7, "N": 26}
+    sheet.wide("M", 22 if case.coarse else 15)
+    sheet.wide("CF", 10.5)
+    sheet.wide("DE", 11)
     sheet.wide("H", 11 if case.scheme is Scheme.CENTERED else 3)
-    sheet.begin("Rigid-body penetration, row by row")
+    sheet.begin("Rigid-body penetration, row by row" + (", coarse step" if case.coarse else ""))
     _label(sheet, case)
     s = case.suffix
     message = f'=IFERROR(says_both{s}&says_rows{s}&says_run{s},"{messages.NO_RUN}")'
@@ -234,17 +242,18 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
     sheet.row = 4
     sheet.say(
         "Row 1 takes x = v Δt/2 (half a step), every later row x + v Δt. d²x/dt² is printed"
-        f" positive; the drag is taken at the {case.scheme.drag_at} velocity of a row (scheme:"
-        f" {case.scheme}). Appendix, Eqs. 13, A-1 to A-3.",
-        width=160,
+        f" positive, with the drag at the {case.scheme.drag_at} velocity of a row"
+        f" ({case.scheme} scheme). Eqs. 13, A-1 to A-3.",
+        width=180,
     )
     sheet.say(
         f"The run stops with the first row below v_stop. {case.rows} rows are prepared; coldspray"
         f" workbook prepares N, up to {MAX_ROWS}, with the same options and --rows N.",
         width=160,
     )
-    top = sheet.row = FIRST_ROW - 2
+    top = sheet.row = FIRST_ROW - _HEADS
     last_column = _rows(sheet, case)
+    sheet.row = top - 1  # above the heads of the rows, so that not every page repeats theirs
     sheet.line_heads()
     _inputs(sheet, case)
     _results(sheet, case)
@@ -255,12 +264,14 @@ def case_sheet(ledger: Ledger, case: CaseSheet) -> SheetPlan:
         _renamed(sheet, case)
     if case.coarse:
         _comparison(sheet, case)
-    sheet.headed = "A", top, top + 1
+    sheet.headed = "A", top, FIRST_ROW - 1
     # It ends where the run of this workbook ends. A print area that is a formula, and follows a run
     # that is changed later, is not understood by every program.
     last = max(FIRST_ROW + case.steps, sheet.row - 1)
     sheet.print_area, sheet.portrait = f"A1:M{last}", True
-    sheet.one_page = last <= _LAST_OF_A_PAGE
+    # The row of the title is higher. All pages but the first repeat the heads.
+    sheet.most_pages = ceil((last + 0.5 - _HEADS) / (_ROWS_OF_A_PAGE - _HEADS))
+    sheet.row_height = _ROW_HEIGHT
     used = f"A{FIRST_ROW}:{last_column}{FIRST_ROW + case.rows}"
     sheet.rules = [
         Rule(used, f"=ISNUMBER($A{FIRST_ROW})", "ruled"),
@@ -292,7 +303,7 @@ def _beta(case: CaseSheet) -> str:
 
 
 def _inputs(sheet: SheetPlan, case: CaseSheet) -> None:
-    """Repeat the inputs of the run. They have no head, as every printed page would repeat it."""
+    """Repeat the inputs of the run."""
     sheet.row = FIRST_ROW
     for key, symbol, meaning, name, unit in (
         ("radius", "R", "particle radius", "R_p", "m"),

@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 
 from reference.ledger import Ledger
 from spreadsheets.plan import (
+    YES_OR_NO,
     Cell,
     Chart,
     ChartCurve,
@@ -43,7 +44,7 @@ def convergence(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
     """Plan the errors of the final depth at eight time steps, and the inputs of these runs."""
     about = "Final depth at eight time steps against the depth at rest, with its chart"
     sheet = SheetPlan(ledger=ledger, name="Convergence", about=about)
-    sheet.portrait = sheet.one_page = True
+    sheet.portrait, sheet.most_pages = True, 1
     sheet.begin("Convergence with the time step")
     sheet.wide("ABCDEFGK", 10)
     sheet.wide("IJ", 12)
@@ -58,11 +59,11 @@ def convergence(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         width=160,
     )
     sheet.row = 8
-    same = _inputs_of_runs(sheet, cases)
-    message = f'=IF(MIN({same})=1,"{messages.CURRENT}","{messages.STALE}")'
+    said = _inputs_of_runs(sheet, cases)
+    message = f'=IFERROR({said},"{messages.STALE}")'
     sheet.cells["A3"] = formula("convergence.message", message, "message")
     sheet.rules = [Rule("A3", f'=$A$3="{messages.STALE}"', "warning")]
-    sheet.row, curves = 36, []
+    sheet.row, curves = 34, []
     for case in cases:
         # The label is a text, not a formula: it names the case as it was when the runs were made.
         label = f"A{sheet.row}"
@@ -77,19 +78,19 @@ def convergence(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
         sheet.put(A=Cell("At rest, without steps"), D=at_rest)
         sheet.row += 1
     sheet.print_area = f"A1:K{sheet.row - 2}"
-    sheet.chart = _chart(cases, curves)
+    sheet.charts = [_chart(cases, curves)]
     return sheet
 
 
 def _inputs_of_runs(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> str:
-    """Add the inputs of the runs beside those in use, and return the cells that compare them."""
-    sheet.heads("HIJK", ("Input", "Of these runs", "In use", ""), "IJ")
+    """Add the inputs of the runs beside those in use, and return the cell that compares all."""
+    sheet.heads("HIJK", ("Input", "Of these runs", "In use", "Same?"), "IJ")
     first, shown = sheet.row, "0.0####E+00"
     for name in run_inputs(cases):
         row = sheet.row
         scale, unit = SMALL.get(name, (1, ""))
         # To twelve digits, since programs differ in how they round a conversion of units.
-        same = f"=IFERROR(IF(ABS(I{row}-J{row})*1000000000000<=ABS(I{row}),1,0),0)"
+        same = f"=IF(ABS(J{row}-I{row})<=ABS(I{row})/1000000000000,1,0)"
         sheet.put(
             H=Cell(f"{name} [{unit}]" if unit else name, "text"),
             I=recorded(f"convergence.run.{name}", shown=shown),
@@ -98,9 +99,16 @@ def _inputs_of_runs(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> str:
                 f"={name}*{scale}" if unit else f"={name}",
                 shown=shown,
             ),
-            K=formula(f"convergence.same.{name}", same, "text", shown='"same";;"other"'),
+            K=formula(f"convergence.same.{name}", same, "text", shown=YES_OR_NO),
         )
-    return f"K{first}:K{sheet.row - 1}"
+    all_same = f"=MIN(K{first}:K{sheet.row - 1})"
+    says = f'=IF(K{sheet.row}=1,"{messages.CURRENT}","{messages.STALE}")'
+    sheet.put(
+        H=Cell("all of them", "text"),
+        K=formula("convergence.all_same", all_same, "text", shown=YES_OR_NO),
+        L=formula("convergence.says", says, "text"),
+    )
+    return f"L{sheet.row - 1}"
 
 
 def _levels(sheet: SheetPlan, case: CaseSheet, first: int) -> None:

@@ -158,7 +158,9 @@ _OF_NO_CASE: Mapping[str, list[InputLine]] = {
         InputLine("S_feathery", "S", "strength-feathery", "ksi"),
         InputLine("S_clear", "S", "strength-clear", "ksi"),
         InputLine("S_bulk", "S", "strength-bulk", "ksi"),
-        InputLine("Y_copper", "Y_p", "copper-yield", "MPa"),
+        InputLine(
+            "Y_copper", "Y_p", "copper-yield", "MPa", "yield strength of copper at room temperature"
+        ),
         InputLine("L_typ", "L", "strain-rate-length", "um"),
     ],
     "Frank and Zook": [
@@ -182,8 +184,8 @@ pi, so it stands in a cell. The last three are limits beyond which a run is not 
 command warns beyond the same ones."""
 
 _HEADS = (
-    ("Symbol", 8), ("Quantity", 41), ("Type here", 12), ("Unit", 7), ("Check", 10), ("In use", 13),
-    ("Unit", 7), ("The report’s", 11), ("It prints", 12), ("Where", 22), ("Least", 10),
+    ("Symbol", 9), ("Quantity", 42), ("Type here", 12), ("Unit", 7), ("Check", 11), ("In use", 13),
+    ("Unit", 7), ("The report’s", 11), ("It prints", 13), ("Where", 23), ("Least", 10),
     ("Greatest", 12), ("Name", 14), ("Number typed", 14), ("Taken", 14), ("Below least?", 14),
     ("Above most?", 14), ("Fault", 14), ("Accepted", 14), ("Whose", 14),
 )  # fmt: skip
@@ -214,7 +216,7 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     _summary(sheet, checks)
     _derived(sheet, cases)
     _constants(sheet)
-    sheet.print_area, sheet.portrait, sheet.one_page = f"A1:J{sheet.row - 1}", True, True
+    sheet.print_area, sheet.portrait, sheet.most_pages = f"A1:J{sheet.row - 1}", True, 1
     faults = ",".join(f'$E{first}="{fault}"' for fault in (TOO_SMALL, TOO_LARGE, NO_NUMBER))
     sheet.rules = [
         Rule(checks, f"=OR({faults})", "warning"),
@@ -236,7 +238,7 @@ def _input(ledger: Ledger, entry: InputLine, row: int) -> dict[str, Cell]:
     shown = "General" if unit == entry.unit else "0.0####E+00"
     return {
         "A": Cell(entry.symbol, "text"),
-        "B": Cell(entry.meaning or ledger.title(entry.source)),
+        "B": Cell(entry.meaning or ledger.title(entry.source), "text"),
         "C": Cell(key=f"{entry.name}.typed", style=style, unit=entry.unit, limits=entry.limits),
         "D": unit_text(entry.unit),
         "E": formula(f"{entry.name}.check", f"=IFERROR(T{row},R{row})", "text"),
@@ -280,13 +282,14 @@ def _summary(sheet: SheetPlan, checks: str) -> None:
     changed = f'=COUNTIF({checks},"{YOURS}")'
     chain = "&".join(f"says_{name}" for name in messages.INPUTS_SAY)
     sheet.cells |= {
-        "B4": Cell("Inputs to use: yours, or the report’s"),
+        "B4": Cell("Inputs to use: yours, or the report’s", "text"),
         "C4": Cell(key="inputs.choice", style="input", choices=["yours", "report"]),
+        "E4": Cell("in use:", "unit"),
         "F4": formula("inputs_from", '=IFERROR(N1,"yours")', named=True),
         "G4": formula("inputs.no_choice", f'=IFERROR(N2,"{no_choice}")', "message"),
-        "B5": Cell("Inputs in use that are not the report’s"),
+        "B5": Cell("Inputs in use that are not the report’s", "text"),
         "C5": formula("inputs_changed", changed, "result", named=True),
-        "B6": Cell("Inputs that cannot be used"),
+        "B6": Cell("Inputs that cannot be used", "text"),
         "C6": formula("inputs_unusable", f"={unusable}", "result", named=True),
         "A7": formula("inputs.message", f"={chain}", "message"),
         "M1": Cell("chosen", "unit"),
@@ -342,7 +345,7 @@ def _constants(sheet: SheetPlan) -> None:
     sheet.block("Constants")
     for name, (meaning, unit) in CONSTANTS.items():
         sheet.put(
-            B=Cell(meaning),
+            B=Cell(meaning, "text"),
             F=recorded(name, named=True, unit=unit),
             G=unit_text(unit),
             M=Cell(name, "unit"),

@@ -19,6 +19,7 @@ from spreadsheets.plan import (
 )
 from spreadsheets.sheets.audit import LIVE_VERDICTS, AuditResult
 from spreadsheets.sheets.case import CaseSheet
+from spreadsheets.sheets.figures import FIGURES
 
 
 def program() -> str:
@@ -37,8 +38,8 @@ def overview(
     computed_in: the cell that computes a claim, by the claim's id.
     """
     report, scheme = ledger.report, pages[0].scheme
-    sheet = SheetPlan(ledger=ledger, name=HOME, portrait=True, one_page=True)
-    sheet.widths = {"A": 33, "B": 15, "C": 15, "D": 9, "E": 14.5, "F": 9, "G": 47}
+    sheet = SheetPlan(ledger=ledger, name=HOME, portrait=True, most_pages=1)
+    sheet.widths = {"A": 33, "B": 15.5, "C": 16, "D": 9, "E": 15, "F": 9, "G": 47}
     sheet.put(A=Cell(title_of(ledger), "title"))
     sheet.say(
         f"After the report by {report.author} ({report.year}). Written by {program()}; {scheme}"
@@ -112,16 +113,16 @@ def _results(sheet: SheetPlan, pages: Sequence[CaseSheet]) -> None:
         sheet.put(A=Cell(label, "link", link=("Inputs", "A1")), B=count)
 
 
-_FIGURE_ROWS = 16
+_FIGURE_ROWS = 20
 """The rows that the chart covers."""
 
 
 def _figure(sheet: SheetPlan, sheets: Sequence[SheetPlan]) -> None:
     """Add the chart of the sheet Figure 3, which also holds its curves."""
-    (chart,) = (page.chart for page in sheets if page.chart and page.name == "Figure 3")
+    chart = next(page for page in sheets if page.name == FIGURES).charts[0]
     height = int(_FIGURE_ROWS * ROW_HEIGHT * 96 / 72) - 5
     sheet.row += 1
-    sheet.chart = replace(chart, at=f"A{sheet.row}", size=(1030, height))
+    sheet.charts = [replace(chart, at=f"A{sheet.row}", size=(1040, height))]
     sheet.row += _FIGURE_ROWS
 
 
@@ -154,7 +155,7 @@ def _failure(
     sheet: SheetPlan, name: str, audited: AuditResult, computed_in: Mapping[str, CellPlace]
 ) -> None:
     ledger = sheet.ledger
-    first, *more = wrap(audited.explanations[name], 100)
+    first, *more = wrap(audited.explanations[name], 92)
     cells = {
         "A": Cell(ledger.claims[name].title),
         "B": printed(ledger, name),
@@ -197,8 +198,8 @@ def _how_to_read(sheet: SheetPlan) -> None:
     sheet.put(
         A=Cell("Protection", "number sample"),
         B=Cell(
-            "Formulas are protected, without a password; nothing else is. To change them: Review >"
-            " Unprotect Sheet (LibreOffice: Tools > Protect Sheet).",
+            "Formulas are protected, without a password; nothing else is. To free them: Review >"
+            " Unprotect Sheet (LibreOffice: Tools).",
             "text",
         ),
     )

@@ -34,7 +34,7 @@ def solve(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
     p = rho_t V^2/2R_t and CV/PV is the crater's volume over the particle's.
     """
     about = "Which resistance, velocity, radius or density gives a measured depth"
-    sheet = SheetPlan(ledger=ledger, name="Solve", about=about, portrait=True, one_page=True)
+    sheet = SheetPlan(ledger=ledger, name="Solve", about=about, portrait=True, most_pages=1)
     sheet.widths = dict(zip(sheet.columns, (width for _, width in LINE_HEADS), strict=True))
     sheet.widths |= dict(zip("GHI", (width for _, width in _EXTRA_HEADS), strict=True))
     sheet.begin("Which input gives a measured depth?")
@@ -95,7 +95,7 @@ def _typed(
     claim = MEASURED if name == "depth" else "discussion-observed"
     sheet.put(
         A=Cell(symbol, "text"),
-        B=Cell(meaning),
+        B=Cell(meaning, "text"),
         C=Cell(key=f"solve.{name}", style="input", unit=unit, limits=limits),
         D=unit_text(unit),
         E=printed(sheet.ledger, claim, unit),

@@ -10,7 +10,7 @@ def table_of_lines(
     """Begin a sheet that is a table with one quantity in each line: title, note and heads."""
     sheet = SheetPlan(ledger=ledger, name=name, about=about)
     sheet.widths = dict(zip(sheet.columns, (width for _, width in LINE_HEADS), strict=True))
-    sheet.portrait = sheet.one_page = True
+    sheet.portrait, sheet.most_pages = True, 1
     sheet.begin(title)
     sheet.say(note)
     sheet.row += 1

@@ -1,14 +1,15 @@
 """The sheet `Table A-1`, which has the report's table in the same cells, A1:F12.
 
 Each number format gives the text that the report prints; "6E-10" needs General. The printed texts
-themselves stand from column H on.
+themselves stand from column H on. Below, each printed number stands beside the one computed.
 """
 
 from collections.abc import Mapping
 
 from reference.ledger import Claim, Ledger
 from reference.scheme import Scheme
-from spreadsheets.plan import HOME, Cell, SheetPlan, formula, printed
+from spreadsheets.plan import HOME, Cell, SheetPlan, formula, printed, recorded, unit_text
+from spreadsheets.sheets.audit import row_of, verdict_colors
 from spreadsheets.sheets.case import (
     FIRST_ROW,
     ROW_COLUMNS,
@@ -23,6 +24,12 @@ NAME = "Table A-1"
 TABLE_ROWS = 5
 """Number of rows, including row 0, the impact itself."""
 
+DECIMALS = 4
+"""Decimals of a difference; rounding makes 0 of 3 times 0.2 ns minus 0.6 ns."""
+
+NO_DIFFERENCE = "–"
+"""Stands for a difference to a blank cell: the table has fewer rows."""
+
 ABOVE = {
     "radius": "R =",
     "particle_density": "Density =",
@@ -35,7 +42,12 @@ ABOVE = {
 
 _FIRST = 8
 _MIDDLE = "G"
-"""The column of middle velocities, if there are any."""
+"""The column of middle velocities, if there are any; below, that of all digits."""
+
+_CHECK_HEADS = (
+    "Cell", "Quantity", "", "Unit", "The report prints", "Last digit", "Computed", "Difference",
+    "Live verdict",
+)  # fmt: skip
 
 
 def claims_in_table(ledger: Ledger) -> dict[str, Claim]:
@@ -46,13 +58,15 @@ def claims_in_table(ledger: Ledger) -> dict[str, Claim]:
 def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     """Plan Table A-1 for a case; the report's own is for beta = 5.
 
-    report: whether the printed texts stand beside it, in columns H to M.
+    report: whether the printed texts stand beside it, in columns H to M, and the check below.
     """
     claims, centered = claims_in_table(ledger), case.scheme is Scheme.CENTERED
     about = "The first rows of the scheme, laid out as the report’s appendix prints them"
-    sheet = SheetPlan(ledger=ledger, name=NAME, about=about)
-    sheet.wide("ABCDEFHIJKLM", 13)
-    sheet.wide(_MIDDLE, 13 if centered else 4)
+    about += "; each number checked" if report else ""
+    sheet = SheetPlan(ledger=ledger, name=NAME, about=about, most_pages=1)
+    sheet.wide("ABCDFHIJKLM", 13)
+    sheet.wide("E", 17)
+    sheet.wide(_MIDDLE, 25 if report else 13 if centered else 4)
 
     def live(address: str, key: str, expression: str) -> None:
         """Add a formula, with the unit and number format of the claim that is printed there."""
@@ -68,7 +82,7 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
         sheet.cells[f"A{row}"] = Cell(label)
         live(f"B{row}", key, f"={name}")
     for column, head in _heads(centered).items():
-        style = "head" if column in "AB" else "head right"
+        style = "head right" if head else "head"
         sheet.cells[f"{column}{_FIRST - 1}"] = Cell(head, style)
     for step in range(TABLE_ROWS):
         for column, expression in _row(case, step).items():
@@ -86,7 +100,9 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     sheet.say(
         "M is Eq. 3 times the density, Rt is Eqs. 7 and A-2, d²x/dt² is Eqs. 13, A-1 and A-3."
     )
-    sheet.cells["A18"] = Cell(f"Back to {HOME}", "link", link=(HOME, "A1"))
+    sheet.put(A=Cell(f"Back to {HOME}", "link", link=(HOME, "A1")))
+    if report:
+        _check(sheet)
     return sheet
 
 
@@ -118,3 +134,36 @@ def _as_printed(ledger: Ledger, claims: Mapping[str, Claim]) -> dict[str, Cell]:
     for address, claim in claims.items():
         cells[f"{shifted[address[0]]}{address[1:]}"] = printed(ledger, claim.id, claim.unit)
     return cells
+
+
+def _check(sheet: SheetPlan) -> None:
+    """Add each number that the table prints beside the one computed."""
+    sheet.row += 1
+    sheet.block("Printed and computed")
+    sheet.say(
+        "Computed: the live cell above, with all its digits. Difference: computed minus printed, in"
+        " units of the last printed digit. Live verdict: as on the sheet Audit."
+    )
+    sheet.row += 1
+    sheet.heads("ABCDEFGHI", _CHECK_HEADS, right="EFGH")
+    first = sheet.row
+    for address, claim in claims_in_table(sheet.ledger).items():
+        number = claim.number
+        row, key = sheet.row, f"table_check.{address}"
+        difference = f"ROUND((G{row}-E{row})/F{row},{DECIMALS})"
+        if claim.is_exact:
+            difference = f"G{row}-E{row}"
+        difference = f'=IF(ISNUMBER(G{row}),{difference},"{NO_DIFFERENCE}")'
+        sheet.put(
+            A=Cell(address, "link", link=(NAME, address)),
+            B=Cell(claim.title, "text"),
+            D=unit_text(claim.unit),
+            E=recorded(float(number.value), claim=claim.id, shown=sheet.cells[address].shown),
+            F=recorded(float(number.quantum), shown="0E+00"),
+            G=formula(
+                f"{key}.computed", f"={address}", shown="0.0000000000000000E+00", unit=claim.unit
+            ),
+            H=formula(f"{key}.difference", difference, "result", shown="0.0000"),
+            I=formula(f"{key}.verdict", f"='Audit'!F{row_of(sheet.ledger, claim.id)}", "text"),
+        )  # fmt: skip
+    sheet.rules = verdict_colors(f"I{first}:I{sheet.row - 1}")

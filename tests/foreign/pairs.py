@@ -45,7 +45,7 @@ class Pair:
         return books[0], books[1]
 
     def written(self, folder: Path) -> list[Path]:
-        paths = [writers.with_openpyxl(f, folder / f"{name}.xlsx")
+        paths = [writers.barely(f, folder / f"{name}.xlsx")
                  for f, name in zip(self.books(), "ab", strict=True)]  # fmt: skip
         return paths[::-1] if self.reverse else paths
 

@@ -45,7 +45,8 @@ def point(error: float, seconds: float, method: str = "closed form", **more: Any
 
 @pytest.fixture(scope="module")
 def beta_5() -> Case:
-    return build_case("beta-5")
+    """The report's case, at fewer times than the bench compares: each takes a quadrature."""
+    return build_case("beta-5", points=51)
 
 
 def errors(case: Case, method: str, measure: str) -> list[float]:
@@ -78,7 +79,7 @@ def test_a_sheets_history_is_compared_down_to_its_stop_velocity(beta_5: Case) ->
     late = np.interp(np.minimum(beta_5.times, 2e-8), beta_5.times, depths)
     assert beta_5.error("history", late) > 1e-2
     # Before that velocity, only the linear interpolation is off.
-    _, velocity = history(2e-8, *BETA_5.motion.values())
+    _, velocity = history(2e-8, **BETA_5.motion)
     assert beta_5.error("history", late, stop=velocity) < 1e-3
 
 
@@ -104,9 +105,8 @@ INTERPRETED = (
 
 
 @pytest.mark.parametrize("name", ["beta-5", "crossing", "hypervelocity"])
-def test_methods_find_the_exact_depths(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("replication.bench.measure.HISTORY_POINTS", 11)
-    case = build_case(name)
+def test_methods_find_the_exact_depths(name: str) -> None:
+    case = build_case(name, points=11)
     # The solvers step over the kink of Eq. 13 at x = R, and lose accuracy there.
     kink = 1.0 if name == "beta-5" else 1e4
     met = set()
@@ -149,7 +149,7 @@ def test_a_task_that_fails_or_takes_too_long_is_a_gap_with_a_reason(
     assert re.fullmatch(r"takes \S+ s, more than 0\.01 s", slow["gap"])
     assert (slow["best"], slow["error"], measure.met(slow)) == (None, None, math.inf)
     monkeypatch.setitem(sys.modules, "heyoka", None)
-    case = build_case("beta-3")  # for which no integrator is kept
+    case = build_case("beta-3", points=2)  # for which no integrator is kept
     task = next(task for task in tasks(case) if task.method == "heyoka")
     reason = "not installed: python -m pip install 'coldspray[bench]'"
     assert tried(case, task)["gap"] == reason

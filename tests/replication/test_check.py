@@ -349,7 +349,7 @@ EDITS = st.lists(st.tuples(st.integers(0, 9999), CONTENTS), max_size=6)
     heads=[(205, None), (987, None)],
 )
 @example(name="side-by-side", edits=[(561, 5e-324)], heads=[])  # a depth without contact area
-@settings(max_examples=30, deadline=None, suppress_health_check=list(HealthCheck))
+@settings(max_examples=15, deadline=None, suppress_health_check=list(HealthCheck))
 def test_whatever_a_cell_holds_the_answer_is_a_record_or_one_line(
     tmp_path_factory: pytest.TempPathFactory, name: str, edits: Edits, heads: Edits
 ) -> None:

@@ -164,6 +164,24 @@ def test_claims_are_listed() -> None:
 
 
 @pytest.mark.parametrize(
+    ("typed", "same"), [("7,67", "7.67"), ("Eq. 16", "eq16"), ("eq A-3", "eqA-3")]
+)
+def test_a_claim_or_equation_is_named_as_people_write_it(typed: str, same: str) -> None:
+    status, out, err = coldspray("claims", typed)
+    assert (status, err) == (0, "")
+    assert out == coldspray("claims", same)[1]
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_example_of_the_help_is_accepted_and_its_files_are_there(command: str) -> None:
+    program, name, *arguments = shlex.split(COMMANDS[command].EXAMPLE)
+    assert (program, name) == ("coldspray", command)
+    assert parse_command_line(COMMANDS, [name, *arguments]).command == command
+    for argument in arguments:
+        assert not argument.startswith("docs/") or (Path(__file__).parents[2] / argument).exists()
+
+
+@pytest.mark.parametrize(
     ("encoding", "newline", "columns"), [("utf-8", "\n", "80"), ("cp1252", "\r\n", "20")]
 )
 def test_the_schema_is_the_same_bytes_everywhere(

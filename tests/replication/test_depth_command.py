@@ -134,7 +134,7 @@ def test_a_threshold_is_a_velocity_beside_the_depth(strength: str, threshold: fl
     ("arguments", "words"),
     [
         (["--particle-strength", "9 GPa"], "threshold none: every velocity penetrates By Eq. 5 a "
-         "particle of strength Y_p 9000 MPa penetrates at any, as Y_p is not below the case's "
+         "particle of strength Y_p 9 GPa penetrates at any, as Y_p is not below the case's "
          "resistance R_t 3.5 GPa. The depth"),
         (["--model", "frank-zook", "--particle-strength", "90 MPa"], "the case's resistance "
          "R_t 3.5 GPa only above this velocity; 500 m/s is not above it."),

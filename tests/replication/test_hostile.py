@@ -159,7 +159,9 @@ def test_a_full_disk(arguments: list[str], target: str, tmp_path: Path) -> None:
     (tmp_path / "plan.toml").write_text(plan)
     (tmp_path / target).write_text("as it was")
     before = state(tmp_path)
-    command = [sys.executable, "-m", "replication", *arguments]
+    # Without -B, Python would leave bytecode cut off at the limit beside our modules, and every
+    # later run would end by it.
+    command = [sys.executable, "-B", "-m", "replication", *arguments]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, preexec_fn=LIMITED)
     assert (done.returncode, done.stdout) == (2, "")
     assert re.fullmatch(rf"coldspray {arguments[0]}: \S+: File too large\n", done.stderr)

@@ -22,8 +22,8 @@ COMMANDS = (
     "stability, sweep, bench, check, diff, power"
 )
 SHEETS = (
-    "the sheets are 'Overview', 'Inputs', 'Table A-1', 'Sheet beta 5', 'Figure 3', 'Figure 5', "
-    "'Convergence', 'Frank-Zook'"
+    "the sheets are 'Overview', 'Inputs', 'Table A-1', 'Sheet beta 5', "
+    "'Figures 3 and 5', 'Convergence', 'Crater', 'Resistance and Frank-Zook'"
 )
 
 
@@ -354,7 +354,11 @@ def test_a_case_file_is_refused(
         ),
         (
             ["history", "--times", "0,-1 ns"],
-            "--times, value 2: '-1 ns' is not between 0 and 1e250 s",
+            "--times, value 2: '-1 ns' is negative: give a time of zero or more",
+        ),
+        (
+            ["depth", "--models", "--model", "rigid"],
+            "argument --model: not allowed with argument --models (see coldspray depth --help)",
         ),
         (
             ["history", "--times", "0,5,10 ns"],

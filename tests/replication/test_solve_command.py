@@ -116,6 +116,12 @@ def test_an_interval_without_a_value_in_its_middle_is_an_answer() -> None:
          "--radius is 0.0: it must be a finite number greater than zero"),
         ("velocity --depth 3", '--depth: the depth is 2.73e+05 times the radius: did you mean "3 '
          'um"?'),
+        ("velocity --normalized-depth 3.3e3", "--normalized-depth: the depth is 3.3e+03 times the "
+         'radius: did you mean --depth "3.3e3 um"?'),
+        ("velocity --normalized-depth 3e4", "--normalized-depth: the depth is 3e+04 times the "
+         "radius: no velocity that doubles can hold gives it"),
+        ("velocity --depth 3m", "--depth: the depth is 2.73e+05 times the radius: no velocity that "
+         "doubles can hold gives it"),
         ("depth --velocity 400 --depth 3um", "argument QUANTITY: it is solved for what gives a "
          "depth; the depth of a case is printed by `coldspray depth` (see coldspray solve --help)"),
         ("step --depth 3um", "argument QUANTITY: there is no quantity 'step': choose one of "

@@ -55,6 +55,33 @@ def all_of(plan: sweep.Plan) -> dict[str, np.ndarray]:
     return sweep.compute(plan, 0, plan.count)
 
 
+@pytest.mark.parametrize(
+    ("inputs", "warning"),
+    [
+        (
+            "radius = 11",
+            'radius is 11 m: from 1e-09 to 1 m is expected; did you mean "11 um"?',
+        ),
+        (
+            "velocity = {from=5e5, to=6e5, points=3}",
+            "velocity is 500000 m/s: from 1 to 100000 m/s is expected",
+        ),
+        (
+            'radius = {distribution="lognormal", mean="100 um", deviation="300 um"}\n'
+            "[sweep]\nsamples = 9\nseed = 1",
+            "",
+        ),
+    ],
+)
+def test_an_input_that_no_impact_has_is_warned_of(
+    inputs: str, warning: str, tmp_path: Path
+) -> None:
+    (tmp_path / "plan.toml").write_text(f"[inputs]\n{inputs}\n")
+    status, _, err = coldspray("sweep", tmp_path / "plan.toml", "-o", tmp_path / "cases.csv")
+    expected = f"coldspray sweep: warning: {warning}\n" if warning else ""
+    assert (status, err) == (0, expected)
+
+
 def names(folder: Path) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
@@ -352,7 +379,11 @@ def test_a_progress_bar_is_shown_on_a_terminal(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize(
     ("send", "number"),
-    [(os.killpg, signal.SIGINT), (os.kill, signal.SIGHUP), (os.kill, signal.SIGTERM)],
+    [
+        (os.killpg, signal.SIGINT),
+        pytest.param(os.kill, signal.SIGHUP, marks=pytest.mark.slow),
+        (os.kill, signal.SIGTERM),
+    ],
 )
 def test_an_interrupted_sweep_leaves_nothing(
     send: Callable[[int, int], None], number: int, tmp_path: Path

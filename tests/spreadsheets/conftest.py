@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from zipfile import ZIP_STORED
@@ -87,6 +87,8 @@ class Emitted:
 
     book: Workbook
     path: Path
+    unchanged: dict[str, SheetValues] = field(default_factory=dict)
+    """What each engine gave for the file as it was written, by the engine's name."""
 
     def typed(self, contents: Mapping[str, Typed], path: Path) -> Path:
         """Copy the file with contents typed into cells, given by key.
@@ -108,12 +110,22 @@ class Emitted:
     def recalculated(
         self, engine: Engine, contents: Sequence[Mapping[str, Typed]], folder: Path
     ) -> list[Page]:
-        """Return the workbook as an engine recalculates it after each of these is typed."""
+        """Return the workbook as an engine recalculates it after each of these is typed.
+
+        The workbook as it was written is recalculated once by each engine.
+        """
+        first = [{}] if {} in contents and engine.name not in self.unchanged else []
         paths = [
             self.typed(typed, folder / f"{engine.name}-{number}.xlsx")
-            for number, typed in enumerate(contents)
+            for number, typed in enumerate([*first, *filter(None, contents)])
         ]
-        return [Page(self.book, values) for values in engine.recalculate_many(paths)]
+        values = iter(engine.recalculate_many(paths) if paths else [])
+        if first:
+            self.unchanged[engine.name] = next(values)
+        return [
+            Page(self.book, next(values) if typed else self.unchanged[engine.name])
+            for typed in contents
+        ]
 
 
 def _type(content: str, address: str, typed: Typed) -> str:

@@ -17,7 +17,6 @@ from workbooks import rewritten, usable
 from replication.workbook import Workbook
 from spreadsheets import emit, safely
 from spreadsheets.plan import (
-    ROW_HEIGHT,
     Cell,
     Chart,
     ChartCurve,
@@ -132,13 +131,13 @@ def test_a_text_longer_than_its_column_has_room_for_two_lines(emitted: Any) -> N
         heights = dict(re.findall(r'<row r="(\d+)"[^>]* ht="([\d.]+)"', rows))
         for address, cell in page.cells.items():
             if cell.wrap and len(cell.text) > 1.2 * page.widths[address[0]]:
-                assert float(heights[address[1:]]) == 2 * ROW_HEIGHT, (page.name, address)
+                assert float(heights[address[1:]]) == 2 * page.row_height, (page.name, address)
 
 
 def test_charts_store_numbers_and_are_described(emitted: Any) -> None:
     parts = parts_of(emitted.path.read_bytes())
     charts = [text for name, text in parts.items() if "charts/chart" in name]
-    assert len(charts) == 4  # Figure 3 stands on Overview, too
+    assert len(charts) == 4  # Figure 3 also stands on Overview
     for text in charts:
         assert "<c:numCache>" in text
         assert text.count("<c:strRef>") == text.count("<c:ser>")  # the names of the curves
@@ -156,7 +155,7 @@ def test_what_is_not_available_is_stored_as_an_error_and_not_drawn() -> None:
         at="D1", title="T", x_title="x", y_title="y", size=(100, 100),
         curves=[ChartCurve(("S", "A1"), "A1:A2", "B1:B2", beta="3")], describe=lambda _: "a chart",
     )  # fmt: skip
-    plan = WorkbookPlan(sheets=(SheetPlan(name="S", cells=cells, chart=chart),))
+    plan = WorkbookPlan(sheets=(SheetPlan(name="S", cells=cells, charts=[chart]),))
     values = {"x[0]": 1.0, "x[1]": "#N/A", "y[0]": 2.0, "y[1]": "#N/A"}
     parts = parts_of(emit.to_bytes(plan, values))
     assert parts["xl/worksheets/sheet1.xml"].count('t="e"><f>NA()</f><v>#N/A</v>') == 2
@@ -171,14 +170,14 @@ def test_the_same_workbook_gives_the_same_bytes(own: Workbook) -> None:
 
 
 @pytest.mark.slow
-def test_the_reports_workbook_prints_on_22_pages(emitted: Any, tmp_path: Path) -> None:
-    """Each sheet on one, but runs of 178 and 131 rows on three and two, and the audit on four."""
+def test_the_reports_workbook_prints_on_17_pages(emitted: Any, tmp_path: Path) -> None:
+    """Each sheet on one, but the runs of 178 and 131 rows on two each, and the audit on three."""
     assert usable("libreoffice").name
     profile = f"-env:UserInstallation={(tmp_path / 'profile').as_uri()}"
     command = ["soffice", profile, "--headless", "--convert-to", "pdf", str(emitted.path)]
     subprocess.run(command, cwd=tmp_path, check=True, capture_output=True, timeout=120)
     (printed,) = tmp_path.glob("*.pdf")
-    assert len(re.findall(rb"/Type\s*/Page\b", printed.read_bytes())) == 22
+    assert len(re.findall(rb"/Type\s*/Page\b", printed.read_bytes())) == 17
 
 
 # Protection

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 from mpmath import mp
-from workbooks import usable
+from workbooks import FASTEST, usable
 
 from reference.arithmetic import Reals
 from reference.inverse import INVERSES
@@ -74,7 +74,7 @@ def pages(emitted: Any, tmp_path_factory: pytest.TempPathFactory) -> dict[str, A
         "too deep": {"solve.ratio": 9000.0},
     }
     folder = tmp_path_factory.mktemp("solve")
-    result = emitted.recalculated(usable("ironcalc"), list(typed.values()), folder)
+    result = emitted.recalculated(usable(FASTEST), list(typed.values()), folder)
     return dict(zip(typed, result, strict=True))
 
 
@@ -111,6 +111,7 @@ def test_what_cannot_be_solved_shows_no_number(
     assert page.errors == {}
 
 
+@pytest.mark.slow
 def test_every_program_solves_for_a_ratio(engine: Engine, emitted: Any, tmp_path: Path) -> None:
     (page,) = emitted.recalculated(engine, [{"solve.ratio": 1.25}], tmp_path)
     check_answers(page, 1.25 * BETA_5.radius, "resistance")

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from workbooks import usable
+from workbooks import FASTEST, usable
 
 from spreadsheets.engines import Engine
 from spreadsheets.plan import NOT_AVAILABLE, NOT_COMPUTED, ShownValue
@@ -142,7 +142,7 @@ def test_what_the_workbook_says_of_numbers_that_can_be_used(
 
 @pytest.mark.slow
 def test_what_the_workbook_says_in_every_scenario(emitted: Any, tmp_path: Path) -> None:
-    check_words(usable("ironcalc"), emitted, list(SCENARIOS), tmp_path)
+    check_words(usable(FASTEST), emitted, list(SCENARIOS), tmp_path)
 
 
 def check_words(engine: Engine, emitted: Any, names: Sequence[str], tmp_path: Path) -> None:
@@ -222,7 +222,7 @@ def allowed(key: str, page: Any, bad: Mapping[str, str]) -> set[ShownValue]:
         return allowed_beside(ending, *UNUSABLE_INPUTS[bad[name]])
     if key.startswith("is_") and key.removeprefix("is_") in INPUTS_SAY:
         return {float(key == "is_unusable")}
-    if key.startswith(("trust", "convergence.same")) or ending == "inputs_changed":
+    if key.startswith("trust") or ending == "inputs_changed":
         return {0.0}
     if ending == "inputs_unusable":
         return {float(len(bad))}
@@ -308,7 +308,7 @@ def test_nothing_that_hangs_on_unusable_inputs_shows_a_number(
 def test_nothing_that_hangs_on_any_unusable_input_shows_a_number(
     emitted: Any, tmp_path: Path
 ) -> None:
-    check_each(usable("ironcalc"), emitted, every_seventh(emitted), tmp_path)
+    check_each(usable(FASTEST), emitted, every_seventh(emitted), tmp_path)
 
 
 @pytest.mark.slow
@@ -322,13 +322,13 @@ def test_nothing_that_hangs_on_one_unusable_input_shows_a_number(
     emitted: Any, tmp_path: Path
 ) -> None:
     cases = alone(names_of_inputs(emitted), list(UNUSABLE_INPUTS))
-    check_each(usable("ironcalc"), emitted, cases[::88], tmp_path)
+    check_each(usable(FASTEST), emitted, cases[::88], tmp_path)
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", UNUSABLE_INPUTS)
 def test_each_input_and_each_kind(emitted: Any, tmp_path: Path, kind: str) -> None:
-    check_each(usable("ironcalc"), emitted, alone(names_of_inputs(emitted), [kind]), tmp_path)
+    check_each(usable(FASTEST), emitted, alone(names_of_inputs(emitted), [kind]), tmp_path)
 
 
 @pytest.mark.slow
