@@ -34,6 +34,8 @@ MOST = 0.5
 """A larger share of rows is most of them."""
 _TOLD = 0.1
 """Rows that do not tell the diameter to this part of itself do not tell another way."""
+_BEYOND = 0.999
+"""A diameter of this part of twice the first depth has all rows beyond its radius."""
 _FEW = 6
 """Of fewer rows it cannot be said that most follow another method."""
 _FIRST_ROWS = 6
@@ -368,7 +370,24 @@ def _fitted_force(rows: Sequence[ForceRow], bounded: bool = True) -> ForceOfRows
         kept = _without_outliers(scaled, best)
         best = _three_numbers(kept, best, bounded) or best
     G, H, D = best.G * A / (U * X) ** 2, best.H * A / X**2, best.D * X
-    return ForceOfRows(G, H, D, _errors_admitted(_without_outliers(scaled, best), best), bounded)
+    errors = _errors_admitted(_without_outliers(scaled, best), best)
+    if bounded and _may_be_beyond(scaled, best):
+        errors = (math.inf, math.inf, math.inf)
+    return ForceOfRows(G, H, D, errors, bounded)
+
+
+def _may_be_beyond(rows: Sequence[ForceRow], force: ForceOfRows) -> bool:
+    """Whether all rows may be beyond the depth D/2, so that they tell no diameter.
+
+    They are so for a diameter below twice the first depth. The force that is the same there
+    explains as many rows, if not.
+    """
+    D = 2 * _BEYOND * min(row.x for row in rows)
+    if not 0 < D < force.D:
+        return 0 < force.D <= D
+    times = (force.D / D) ** 2
+    smaller = force._replace(G=force.G * times, H=force.H * times, D=D)
+    return _explained(rows, smaller) >= _explained(rows, force)
 
 
 def _trials(rows: Sequence[ForceRow], bounded: bool) -> Iterator[ForceOfRows]:

@@ -178,7 +178,8 @@ def _solve_rest(exam: Examination, six: Six) -> None:
     the report's particle density is taken where it leads to the report's target density.
     """
     inputs, radius = exam.inputs, exam.inputs.get("radius")
-    if radius is None or not (six.G > 0 and six.H > 0):
+    error = exam.fitted.errors.of_force
+    if radius is None or not (six.G > 0 and six.H > 0 and error < math.inf):
         return
     volume = mass_of(radius.si, 1.0)
     M = None
@@ -203,7 +204,6 @@ def _solve_rest(exam: Examination, six: Six) -> None:
         "particle_density": M / volume, "target_density": 2 * six.G * M / math.pi,
         "resistance": six.H * M / math.pi,
     }  # fmt: skip
-    error = exam.fitted.errors.of_force
     for role, value in solved.items():
         inputs.setdefault(role, Input(role, value, None, "rows", error=error))
 

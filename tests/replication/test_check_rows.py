@@ -143,7 +143,7 @@ def single(k: int) -> float:
     (lambda k: math.floor(2 * k) / 10, DT, ".1f"),
     (lambda k: k / 3, 1e-9 / 3, ".1f"),
     (lambda k: k / 4, 2.5e-10, ".1f"),
-    (lambda k: 0.0234567 * k, 2.34567e-11, ".1f"),
+    (lambda k: 0.0567891 * k, 5.67891e-11, ".1f"),
     (lambda k: 0.2 * k, DT, ".4e"),
     (lambda k: 0.2 * k, DT, ""),
     (single, DT, ".4f"),
@@ -186,7 +186,8 @@ def of_higher_order(dt: float, runge_kutta: bool) -> Rows:
 @pytest.mark.parametrize("columns", [3, pytest.param(2, marks=pytest.mark.slow)])
 @pytest.mark.parametrize(("dt", "forms"), [
     (2e-10, (".2f", ".1f", ".2f")), (2e-10, (".2f", ".2f", ".3f")), (5e-10, (".1f", ".1f", ".2f")),
-    (1e-10, (".1f", ".1f", ".2f")), (2e-11, (".2f", ".1f", ".3f")),
+    (1e-10, (".1f", ".1f", ".2f")),
+    pytest.param(2e-11, (".2f", ".1f", ".3f"), marks=pytest.mark.slow),
 ])  # fmt: skip
 def test_better_methods_with_few_digits_are_not_judged(
     dt: float, forms: tuple[str, ...], columns: int, runge_kutta: bool, tmp_path: Path
@@ -335,3 +336,18 @@ def test_the_text_speaks_of_a_file_and_not_of_cells(tmp_path: Path) -> None:
     assert "line 43, column 'depth [um]', wrong number" in shown
     assert "line 1, cell 2" in shown
     assert [word for word in ("sheet 'mine'", "no cell", "typed", "formula") if word in shown] == []
+
+
+def test_rows_that_all_are_beyond_the_radius_tell_no_diameter(tmp_path: Path) -> None:
+    """Half of the first step is longer than the radius; nothing contradicts the one stated."""
+    radius, dt = 5.661e-4, 1.3e-6
+    mass, strength = 4 / 3 * math.pi * radius**3 * 10100, 1.15 * 24.6e6
+    rows, x, v = [[0.0, 1100.0, 0.0, 0.0]], 1100 * dt / 2, 1100.0
+    while v >= 1:
+        a = (8970 * v * v / 2 + strength) * math.pi * radius**2 / mass
+        rows.append([len(rows) * dt * 1e9, v, x * 1e6, a])
+        v -= a * dt
+        x += v * dt
+    above = "radius [um],566.1\nparticle density [kg/m3],10100\ntarget density [kg/m3],8970\n"
+    above += "beta,1.15\nflow stress [MPa],24.6\n"
+    assert faults(text(rows, 4, (".0f", ".4f", ".3f", ".6e"), above), tmp_path) == []
