@@ -191,14 +191,17 @@ class Line:
                 counts = others
         return max((n for n, _ in counts), default=15), min((p for _, p in counts), default=-300)
 
-    def rounding(self, value: float) -> float:
-        """How far a number of this line may be from the one that was meant, by its digits."""
+    def rounding(self, value: float, fewest: int = 3) -> float:
+        """How far a number of this line may be from the one that was meant, by its digits.
+
+        `fewest`: a number with fewer digits was typed with zeros at its end left out.
+        """
         if self.computed or value == 0 or not math.isfinite(value):
             return 1e-14 * abs(value)
         digits, last = self._digits
         if digits >= 15:
             return max(1e-15 * abs(value), 0.5 * 10.0**last if last > -300 else 0.0)
-        least = 10.0 ** (math.floor(math.log10(abs(value))) - max(digits, 3) + 1)
+        least = 10.0 ** (math.floor(math.log10(abs(value))) - max(digits, fewest) + 1)
         return 0.5 * max(least, 10.0**last if last > -300 else 0.0)
 
     @cached_property

@@ -24,6 +24,8 @@ _LEAST_ROWS = 6
 """Of fewer times it cannot be said which one is wrong."""
 _MOST = 0.5
 """A larger share of rows is most of them."""
+_NEARLY_ALL = 0.9
+"""So large a share of times leaves no doubt of the step, nor of half a digit."""
 _PART = 1e-3
 """Times that are so small a part of their last digit apart are printed as the same."""
 _FAR = 3.0
@@ -36,14 +38,15 @@ Numbers = Mapping[int, float]
 class Steps(NamedTuple):
     """Equal steps of times, the error that the digits admit, and the time of row 0 by them.
 
-    `near` is how far from their row times may be that count as known. The origin is None where the
-    step has more digits than the times, which are then rounded.
+    `near` is how far from their row times may be that count as known, and `clear` says that nearly
+    all are. The origin is None where the step has more digits than the times, which are rounded.
     """
 
     step: float
     error: float
     near: float
     origin: float | None
+    clear: bool = False
 
 
 class WrongTime(NamedTuple):
@@ -62,8 +65,8 @@ def judge_times(exam: Examination) -> bool:
     table, line = exam.table, exam.table.lines["time"]
     shown = ((k, table.number("time", k)) for k in sorted(table.rows))
     times = {k: t for k, t in shown if t is not None}
-    usual = median(line.rounding(t) for t in times.values())
-    errors = {k: line.rounding(t) if t else usual for k, t in times.items()}
+    usual = median(line.rounding(t, 1) for t in times.values())
+    errors = {k: line.rounding(t, 1) if t else usual for k, t in times.items()}
     steps = equal_steps(times, errors)
     if steps is None:
         return False
@@ -108,10 +111,14 @@ def equal_steps(times: Numbers, errors: Numbers) -> Steps | None:
     middle = median((times[b] - times[a]) / (b - a) for a, b in zip(rows, rows[far:], strict=False))
     for step in (_most_frequent(times, rounding), middle):
         origins = {k: round((t - k * step) / same) for k, t in times.items()}
-        origin, count = Counter(origins.values()).most_common(1)[0]
-        if count > _MOST * len(times):
-            most = [times[k] - k * step for k, rest in origins.items() if rest == origin]
-            return Steps(step, 2 * same / len(most), same, median(most))
+        origin = Counter(origins.values()).most_common(1)[0][0]
+        agree = {k for k, rest in origins.items() if rest == origin}
+        # Times with more decimals than most, as small ones in exponents, must tell no other step.
+        finer = {k for k, error in errors.items() if error < rounding / 2}
+        if len(agree) > _MOST * len(times) and len(agree & finer) >= _MOST * len(finer):
+            start = median(times[k] - k * step for k in agree)
+            clear = len(agree) >= _NEARLY_ALL * len(times)
+            return Steps(step, 2 * same / len(agree), same, start, clear)
     pairs = sum(
         abs(times[b] - times[a] - (b - a) * middle) <= errors[a] + errors[b] + same
         for a, b in pairwise(rows)
@@ -137,6 +144,7 @@ def wrong_times(times: Numbers, errors: Numbers, steps: Steps) -> list[WrongTime
     rows, walk = sorted(times), _Walk(times, errors, steps)
     last, before = walk.start(rows)
     wrong: list[WrongTime] = []
+    by_a_digit: list[WrongTime] = []
     for k, after in zip(rows, [*rows[1:], None], strict=True):
         miss, close = walk.off(last, before, k), walk.slack(last, k)
         if abs(miss) <= close:
@@ -145,14 +153,16 @@ def wrong_times(times: Numbers, errors: Numbers, steps: Steps) -> list[WrongTime
             continue
         if k == 0 and min(abs(miss - steps.step), abs(miss - steps.step / 2)) <= close:
             continue
-        goes_on = after is not None and walk.follows(k, after)
-        if after is not None and abs(walk.off(last, before, after)) <= walk.slack(last, after):
-            goes_on = False
-        if not goes_on or abs(miss) > close + k * _SINGLE * abs(times[k]):
+        alone = after is not None and abs(walk.off(last, before, after)) <= walk.slack(last, after)
+        goes_on = after is not None and not alone and walk.follows(k, after)
+        if steps.origin is not None and abs(miss) <= close + errors[k]:
+            by_a_digit += [WrongTime(k, times[k] - miss, False)] if alone else []
+        elif not goes_on or abs(miss) > close + k * _SINGLE * abs(times[k]):
             wrong.append(WrongTime(k, times[k] - miss, goes_on))
         if goes_on:
             last, before = k, times[k]
-    return wrong
+    # Ties, and cutting digits off, make the last digit of several times another one.
+    return sorted(wrong + by_a_digit) if steps.clear and len(by_a_digit) == 1 else wrong
 
 
 class _Walk(NamedTuple):

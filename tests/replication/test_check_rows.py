@@ -143,13 +143,16 @@ def single(k: int) -> float:
     (lambda k: math.floor(2 * k) / 10, DT, ".1f"),
     (lambda k: k / 3, 1e-9 / 3, ".1f"),
     (lambda k: k / 4, 2.5e-10, ".1f"),
+    (lambda k: max(0.0, 0.33 * k - 0.165), 3.3e-10, ".2f"),
+    (lambda k: 0.2000213 * k, 2.000213e-10, ".2f"),
     (lambda k: 0.0567891 * k, 5.67891e-11, ".1f"),
     (lambda k: 0.2 * k, DT, ".4e"),
     (lambda k: 0.2 * k, DT, ""),
     (single, DT, ".4f"),
     (single, DT, ".6g"),
-], ids=["half a step before", "a step before", "delayed", "cut off", "thirds", "ties", "coarse",
-        "exponents", "all digits", "single precision", "single precision, six digits"])  # fmt: skip
+], ids=["half a step before", "a step before", "delayed", "cut off", "thirds", "ties", "half ties",
+        "a digit more", "coarse", "exponents", "all digits", "single precision",
+        "single precision, six digits"])  # fmt: skip
 def test_other_ways_to_count_times_are_clean(
     time: Callable[[int], float], dt: float, form: str, tmp_path: Path
 ) -> None:
