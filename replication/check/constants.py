@@ -41,7 +41,7 @@ def typed_constants(
         if cell is None:
             continue
         role, place = cell
-        cells = _cells_with(exam, source.place)
+        cells = _cells_with(exam, source.place) or [source.place]
         if (cells[0], role) not in told:
             told.add((cells[0], role))
             where = (
