@@ -107,8 +107,8 @@ def test_the_sheets_are_sound_as_far_as_their_parts_tell(emitted: Any) -> None:
 
 
 OLD_FUNCTIONS = {
-    "ABS", "ASIN", "COUNT", "COUNTIF", "EXP", "IF", "IFERROR", "INDEX", "ISNUMBER", "LN", "MAX",
-    "MIN", "NA", "PI", "ROUND", "ROW", "SIN", "SQRT",
+    "ABS", "AND", "ASIN", "COUNT", "COUNTIF", "EXP", "IF", "IFERROR", "INDEX", "ISNUMBER", "LN",
+    "MAX", "MIN", "NA", "PI", "ROUND", "SIN", "SQRT",
 }  # fmt: skip
 """Functions of Excel 2007, the first to read .xlsx. Newer ones would need the prefix _xlfn."""
 
