@@ -54,7 +54,10 @@ class Computation:
 
     @cached_property
     def settings(self) -> frozenset[str]:
-        """Which of `eq`, `row` and `scheme` it takes."""
+        """Which of `eq`, `row` and `scheme` it takes.
+
+        A `power` is an input like others; `Ledger.function` alone keeps it exact.
+        """
         return frozenset(signature(self.function).parameters) & {"eq", "row", "scheme"}
 
     @property

@@ -9,6 +9,7 @@ is halved again and again. If the budget runs out first, the question stays unde
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
+from enum import Enum
 from fractions import Fraction
 from itertools import count
 from math import inf, isinf
@@ -29,6 +30,14 @@ _INTERVALS = Intervals(30)
 """30 digits, about twice as many as a double has: outward rounding never decides a verdict."""
 _DUALS = Duals(_INTERVALS)
 _TANGENTS = Duals(Floats())
+
+
+class Satisfiability(Enum):
+    """Whether some point of a box satisfies every constraint."""
+
+    SHOWN = "a point that does is known"
+    REFUTED = "it is proven that none does"
+    UNDECIDED = "the budget of boxes ran out"
 
 
 class Range(msgspec.Struct, frozen=True):
@@ -196,7 +205,8 @@ def _crossing(
 
     `at_ends` are its values at the ends of the part. The Illinois method narrows the bracket: each
     new end is the zero of the secant between the ends, and where the same end moves twice, half the
-    value is taken at the other. Every fourth time the bracket is halved, as secants can be slow.
+    value is taken at the other. Every fourth time the bracket is halved, as secants can be slow;
+    and from then on when a secant's zero cannot be told from the goal, as where the slope is zero.
     Each end is proven to lie on its side, however it was chosen.
     """
     at_lower = rises == (end == 0)
@@ -208,11 +218,12 @@ def _crossing(
     # Twice the function less the goal, at both ends.
     at_low, at_high = (least + greatest - 2 * goal for least, greatest in at_ends)
     (low, high), width = part, (part[1] - part[0]) / 2**60  # so that all digits of a double hold
-    moved = ""
+    moved, halved = "", False
     for attempt in count(1):
         if high - low <= width:
             break
-        if attempt % 4 == 0:  # not the exact middle, where a simple function might hit the goal
+        if halved or attempt % 4 == 0:
+            # Not the exact middle, where a simple function might hit the goal.
             x = low + (high - low) * Fraction(49, 100)
         else:
             share = at_low / (at_low - at_high) if at_low != at_high else Fraction(1, 2)
@@ -220,8 +231,13 @@ def _crossing(
             x = low + share * (high - low) + (width / 3 if share < Fraction(1, 2) else -width / 3)
         x = x.limit_denominator(10**30)
         below, above = value(x)
-        if below <= goal <= above or not low < x < high:
+        if not low < x < high:
             break
+        if below <= goal <= above:
+            if halved:
+                break
+            halved = True
+            continue
         if (above < goal) == rises:
             low, at_low = x, below + above - 2 * goal
             at_high /= 2 if moved == "low" else 1
@@ -292,14 +308,14 @@ def _bounds(monotone: Sequence[tuple[Constraint, Range]], name: str, box: Box) -
 
 def satisfying(
     constraints: Sequence[Constraint], box: Box, budget: int = 1000
-) -> tuple[bool | None, dict[str, Fraction] | None]:
+) -> tuple[Satisfiability, dict[str, Fraction] | None]:
     """Return whether some point of the box satisfies every constraint, and such a point.
 
-    The answer is False only where this is proven; it is None if the budget of boxes runs out. In
-    each box one point is tried, which the linearized constraints suggest. If that of the whole box
-    does not satisfy them, `bounds` narrows every input: at corners only, as far as derivatives have
-    a proven sign. Boxes that this leaves open are halved until each is excluded by a constraint.
-    Constraints are tested in their order: it saves time to put cheap and narrow ones first.
+    In each box one point is tried, which the linearized constraints suggest. If that of the whole
+    box does not satisfy them, `bounds` narrows every input: at corners only, as far as derivatives
+    have a proven sign. Boxes that this leaves open are halved until each is excluded by a
+    constraint. Constraints are tested in their order: it saves time to put cheap and narrow ones
+    first.
     """
     queue = deque([(box, list(constraints))])
     sizes = {name: max(map(abs, ends)) or 1 for name, ends in box.items()}
@@ -312,7 +328,7 @@ def satisfying(
             continue
         point = _candidate(undecided, part)
         if _undecided(undecided, _points(point)) == []:
-            return True, point
+            return Satisfiability.SHOWN, point
         if tried == 0:
             narrowed = _narrowed(undecided, part)
             queue += [(narrowed, undecided)] if narrowed else []
@@ -321,7 +337,7 @@ def satisfying(
         name = max(part, key=lambda name: (part[name][1] - part[name][0]) / sizes[name])
         (low, high), middle = part[name], _middle(part)[name]
         queue += [({**part, name: half}, undecided) for half in ((low, middle), (middle, high))]
-    return (None if queue else False), None
+    return (Satisfiability.UNDECIDED if queue else Satisfiability.REFUTED), None
 
 
 def _narrowed(constraints: Sequence[Constraint], box: Box) -> Box | None:

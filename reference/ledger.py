@@ -29,6 +29,9 @@ from reference.units import Dimension, raised, to_si, unit_dimension
 INFERRED = "inferred:"
 """The prefix of the id of an input that the report does not print."""
 
+READ_AS_PRINTED = ""
+"""The name of the reading that takes a claim's equation as the report prints it."""
+
 Kind = Literal[
     "input", "result", "approximation", "order of magnitude", "bound", "range",
     "quoted", "constant", "remark",
@@ -49,11 +52,11 @@ def as_shown(text: str) -> str:
     return re.sub(r"~\s+", "~", raised(text))
 
 
-class Entry(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
+class TomlStruct(msgspec.Struct, frozen=True, forbid_unknown_fields=True):
     """A table of a TOML file; an unknown key is an error."""
 
 
-class Inferred(Entry, frozen=True):
+class Inferred(TomlStruct, frozen=True):
     """An input that the report does not print; it is inferred from the numbers that it prints.
 
     `search` is the range that is searched and `nominal` the value taken where the evidence admits
@@ -74,7 +77,7 @@ class Inferred(Entry, frozen=True):
     evidence: list[str]
 
 
-class Symbol(Entry, frozen=True):
+class Symbol(TomlStruct, frozen=True):
     """A symbol of the equations: how the report writes it, how it is shown, and what it means."""
 
     written: list[str]
@@ -84,7 +87,7 @@ class Symbol(Entry, frozen=True):
     value: str | None = None
 
 
-class Quantity(Entry, frozen=True):
+class Quantity(TomlStruct, frozen=True):
     """A physical quantity: its unit, the range of values that is searched, and the reason."""
 
     unit: str
@@ -92,7 +95,7 @@ class Quantity(Entry, frozen=True):
     reason: str
 
 
-class Source(Entry, frozen=True):
+class Source(TomlStruct, frozen=True):
     """A public source for a number that the report does not derive (see sources.toml)."""
 
     id: str
@@ -126,7 +129,7 @@ class Source(Entry, frozen=True):
         return whole.scaled(to_si(self.unit))
 
 
-class Report(Entry, frozen=True):
+class Report(TomlStruct, frozen=True):
     """The report that is audited: its text's file name and its bibliographic data."""
 
     text: str
@@ -154,7 +157,7 @@ def in_header(cell: str | None) -> bool:
     return cell is not None and cell.startswith("B")
 
 
-class Equation(Entry, frozen=True, eq=False):
+class Equation(TomlStruct, frozen=True, eq=False):
     """A printed equation, with its place in the report; `reference.derivations` checks it."""
 
     id: str
@@ -165,14 +168,14 @@ class Equation(Entry, frozen=True, eq=False):
     place: Place = Place()
 
 
-class Claim(Entry, frozen=True, dict=True, eq=False):
+class Claim(TomlStruct, frozen=True, dict=True, eq=False):
     """A claim: one printed number, with what is recorded about it and what follows from that.
 
     `Ledger.claims` fills in the fields from `text` on. `why` is the reason of which `given` is the
-    key. `computations` has the computation as printed under the name "", and other readings by
-    name. `inputs` maps each input of the computations to the entries whose product it is. `within`
-    is the equation that the number is a constant of. `chosen` says that the author set the number,
-    here or in the claim that this one repeats. `bound` is the number that a relation compares with.
+    key. `computations` has the computation `READ_AS_PRINTED`, and other readings by name. `inputs`
+    maps each input of the computations to the entries whose product it is. `within` is the equation
+    that the number is a constant of. `chosen` says that the author set the number, here or in the
+    claim that this one repeats. `bound` is the number that a relation compares with.
     """
 
     id: str
@@ -270,7 +273,7 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
     @property
     def computation(self) -> Computation | None:
         """The computation that gives the claim as printed, if there is one."""
-        return self.computations.get("")
+        return self.computations.get(READ_AS_PRINTED)
 
     @property
     def restates(self) -> bool:
@@ -283,19 +286,19 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
         return self.computation is not None and not self.computation.restates
 
     @cached_property
-    def entries(self) -> list[str]:
+    def input_ids(self) -> list[str]:
         """The ids of the entries that the claim is computed from, sorted."""
         return sorted({name for names in self.inputs.values() for name in names})
 
     @property
     def inferred(self) -> list[str]:
         """The entries that the claim is computed from and that the report does not print."""
-        return [name for name in self.entries if name.startswith(INFERRED)]
+        return [name for name in self.input_ids if name.startswith(INFERRED)]
 
     @property
     def stated(self) -> list[str]:
         """The entries that the claim is computed from and that the report prints."""
-        return [name for name in self.entries if not name.startswith(INFERRED)]
+        return [name for name in self.input_ids if not name.startswith(INFERRED)]
 
     def resting_on(self, **inputs: str) -> "Claim":
         """Return a copy of the claim in which these entries replace those of the named inputs."""
@@ -319,7 +322,7 @@ class Claim(Entry, frozen=True, dict=True, eq=False):
         return sorted({name for own in computations for name in own.equations})
 
 
-class Lines(Entry, frozen=True):
+class Lines(TomlStruct, frozen=True):
     """The lines of a claim or an equation in ledger.toml."""
 
     quote: str
@@ -327,7 +330,7 @@ class Lines(Entry, frozen=True):
     basis: Mapping[str, Any] = {}
 
 
-class TableColumn(Entry, frozen=True):
+class TableColumn(TomlStruct, frozen=True):
     """What the claims in a column of Table A-1 have in common; their ids begin with `id`."""
 
     id: str
@@ -335,7 +338,7 @@ class TableColumn(Entry, frozen=True):
     basis: Mapping[str, Any]
 
 
-class TimeSteps(Entry, frozen=True):
+class TimeSteps(TomlStruct, frozen=True):
     """The table [time_steps]: the rows of Table A-1 as printed, and what columns have in common."""
 
     rows: Mapping[str, str]
@@ -353,10 +356,10 @@ class TimeSteps(Entry, frozen=True):
                     "cell": f"{letter}{row}", "row": step,
                 }  # fmt: skip
                 lines = Lines("\t".join(marked.values()), what, column.basis)
-                yield entry(f"{column.id}-{step}", lines, Claim)
+                yield read_lines(f"{column.id}-{step}", lines, Claim)
 
 
-def entry(name: str, lines: Lines, kind: type[Entry]) -> Any:
+def read_lines(name: str, lines: Lines, kind: type[TomlStruct]) -> Any:
     """Return the claim or the equation that these lines give.
 
     Raises msgspec.ValidationError, with its id, for an unknown key or a missing one.
@@ -368,7 +371,7 @@ def entry(name: str, lines: Lines, kind: type[Entry]) -> Any:
         raise msgspec.ValidationError(f"ledger.toml: {name}: {error}") from error
 
 
-class Ledger(Entry, frozen=True, dict=True, eq=False):
+class Ledger(TomlStruct, frozen=True, dict=True, eq=False):
     """The content of ledger.toml, with claims and equations in the order of the report.
 
     `misprinted` maps the id of a claim or an equation to the text that replaces the report's.
@@ -408,14 +411,14 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         located = {}
         for name, lines in self.equation.items():
             place = place_of(self.text, lines.quote)
-            located[name] = replace(entry(name, lines, Equation), place=place)
+            located[name] = replace(read_lines(name, lines, Equation), place=place)
         return located
 
     @cached_property
     def claims(self) -> Mapping[str, Claim]:
         """The claims, by id."""
         located = {}
-        single = (entry(name, lines, Claim) for name, lines in self.claim.items())
+        single = (read_lines(name, lines, Claim) for name, lines in self.claim.items())
         for claim in (*single, *self.time_steps.claims):
             place = place_of(self.text, claim.quote, claim.cell)
             text = self.text[place.start : place.end]
@@ -430,7 +433,10 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             original = located[original.same_as]
         if claim.same_as and claim.kind != "remark":
             claim = replace(claim, computed_by="same_as", rests_on={"value": claim.same_as})
-        readings, inputs = {"": claim.computed_by, **claim.readings}, dict(claim.rests_on)
+        readings, inputs = (
+            {READ_AS_PRINTED: claim.computed_by, **claim.readings},
+            dict(claim.rests_on),
+        )
         if group := inputs.pop("group", None):
             inputs = {**self.groups[str(group)], **inputs}
         places = ((equation.id, equation.place) for equation in self.equations.values())
@@ -472,7 +478,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
             return []
         return [claim.id for claim in self.claims.values() if claim.within == equation]
 
-    def printed_text(self, name: str, constants: Mapping[str, Fraction] = {}) -> str:
+    def printed_text(self, name: str, constants: Mapping[str, Fraction] | None = None) -> str:
         """Return the text of a claim, or of an equation with the values `constants` put in."""
         if name in self.claims:
             return self.claims[name].text
@@ -482,7 +488,8 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         text = self.text[place.start : place.end]
         for constant in reversed(self.constants_of(name)):  # the last one first: it moves no other
             claim, own = self.claims[constant], self.claims[constant].text
-            if (value := constants.get(constant)) is not None:
+            value = (constants or {}).get(constant)
+            if value is not None:
                 own = rf"\frac{{{value.numerator}}}{{{value.denominator}}}"
             start, end = claim.place.start - place.start, claim.place.end - place.start
             text = text[:start] + own + text[end:]
@@ -514,8 +521,10 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
 
     def value(self, name: str) -> Fraction:
         """Return, in SI, the printed value of a claim or the nominal value of an inferred input."""
-        entry = self._input(name)
-        return entry.nominal * to_si(entry.unit) if isinstance(entry, Inferred) else entry.value
+        stated = self._input(name)
+        if isinstance(stated, Inferred):
+            return stated.nominal * to_si(stated.unit)
+        return stated.value
 
     def search(self, name: str) -> tuple[Fraction, Fraction, str]:
         """Return the range, in SI, in which to search for an entry's value, and its reason."""
@@ -535,7 +544,7 @@ class Ledger(Entry, frozen=True, dict=True, eq=False):
         self,
         claim: Claim,
         *,
-        reading: str = "",
+        reading: str = READ_AS_PRINTED,
         scheme: Scheme = Scheme.PUBLISHED,
         equations: Equations | None = None,
     ) -> Function:

@@ -113,7 +113,7 @@ def _unit(unit: str) -> tuple[Fraction, Dimension]:
     """Return a unit's factor to SI and its dimension. Raises UnitError for an unknown unit."""
     factors = _factors(unit)
     if factors is None:
-        raise UnitError(f"unknown unit {unit[:_LONGEST]!r}: {_advice(unit)}")
+        raise _unknown(unit)
     factor, dimension = Fraction(1), Dimension()
     for name, power in factors:
         base, base_dimension = _UNITS[name]
@@ -129,6 +129,11 @@ def is_known(unit: str) -> bool:
     (True, False)
     """
     return _factors(unit) is not None
+
+
+def _unknown(unit: str, expected: str | None = None) -> UnitError:
+    """Return the error for an unknown unit; `expected` has the dimension that it should have."""
+    return UnitError(f"unknown unit {unit[:_LONGEST]!r}: {_advice(unit, expected)}")
 
 
 def _advice(unit: str, expected: str | None = None) -> str:
@@ -222,7 +227,7 @@ def same_dimension(first: str, second: str) -> bool:
     (True, False)
     """
     if not is_known(first):
-        raise UnitError(f"unknown unit {first[:_LONGEST]!r}: {_advice(first, second)}")
+        raise _unknown(first, second)
     return unit_dimension(first) == unit_dimension(second)
 
 

@@ -188,7 +188,7 @@ class ModelledCase:
     sources: Mapping[str, str]
 
 
-def modelled(name: str, impact: Impact, given: Mapping[str, float] = {}) -> ModelledCase:
+def modelled(name: str, impact: Impact, given: Mapping[str, float] | None = None) -> ModelledCase:
     """Return the model of this name for a case.
 
     `given` are inputs of `OWN_INPUTS` that replace the case's or the report's. A resistance that
@@ -205,6 +205,7 @@ def modelled(name: str, impact: Impact, given: Mapping[str, float] = {}) -> Mode
     if name not in DEPTH_MODELS:
         raise ValueError(f"there is no model {quoted(name)}: {advice(name, DEPTH_MODELS)}")
     declaration, ledger = DEPTH_MODELS[name], load()
+    given = given or {}
     for key in given:
         if key not in declaration.inputs:
             own = [key for key in declaration.inputs if key in OWN_INPUTS]

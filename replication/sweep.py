@@ -23,7 +23,7 @@ from reference.scheme import Scheme
 from replication.cases import BETA_5, CASES, INPUTS
 from replication.models import arrays
 from replication.models.estimates import particle_velocity
-from replication.models.impact import Impact, InputError, check_inputs, particle_mass
+from replication.models.impact import Impact, InputError, check_positive, particle_mass
 from replication.user_input import (
     KeyedError,
     advice,
@@ -189,9 +189,13 @@ def compute(plan: Plan, first: int, count: int) -> dict[str, npt.NDArray[Any]]:
     """
     inputs = plan.inputs(first, count)
     motion: dict[str, Any] = {name: inputs[name] for name in BETA_5.motion}
-    velocity, radius, *materials = motion.values()
-    ratio = arrays.normalized_depth(velocity, *materials)
-    results = {"depth": radius * ratio, "normalized_depth": ratio, "beyond_radius": ratio > 1}
+    without_radius = {name: values for name, values in motion.items() if name != "radius"}
+    ratio = arrays.normalized_depth(**without_radius)
+    results = {
+        "depth": motion["radius"] * ratio,
+        "normalized_depth": ratio,
+        "beyond_radius": ratio > 1,
+    }
     if "stop_time" in plan.extras:
         results["stop_time"] = arrays.stop_time(**motion)
     if {"sheet_depth", "sheet_steps"} & set(plan.extras):
@@ -275,7 +279,7 @@ def _sources(
     for name, source in sources.items():
         for number in source.bounds:
             with within(name):
-                check_inputs({name: number})
+                check_positive({name: number})
     return sources, by_mass
 
 
@@ -379,7 +383,7 @@ def _by_mass(name: str, table: TomlTable) -> dict[str, float]:
     units = {"average_velocity": "m/s", "average_mass": "kg"}
     check_keys(table, units)
     numbers = read_numbers(table, units)
-    check_inputs(numbers)
+    check_positive(numbers)
     return numbers
 
 

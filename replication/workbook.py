@@ -589,7 +589,8 @@ def _solve(ledger: Ledger, runs: Runs) -> Tree:
     typed = float(ledger.value(MEASURED) / to_si("um"))
     x = _si(typed, "um")
     shared = runs[0][1].impact
-    v, radius, particle, target, _ = shared.motion.values()
+    v, radius = shared.velocity, shared.radius
+    particle, target = shared.particle_density, shared.target_density
     y = x / radius
     ratio = crater.crater_volume_ratio(y)
     logarithm = ratio * (target / particle)
@@ -699,7 +700,8 @@ def _without_steps(impact: Impact, to_stop: bool = False) -> dict[str, float]:
     p = rho_t (V^2 - u^2) / (2 R_t + rho_t u^2) [1], `ln` is ln(1 + p), `c` is
     (4 rho_p / 3 rho_t) ln(1 + p), and `h` the angle asin(sqrt(3c)/2)/3 with c of at most 2/3.
     """
-    v, radius, particle, target, r_t = impact.motion.values()
+    v, radius, r_t = impact.velocity, impact.radius, impact.target_resistance
+    particle, target = impact.particle_density, impact.target_density
     u, reached = 0.0, depth.normalized_depth(v, particle, target, r_t)
     if to_stop:
         u = min(impact.stop_velocity, v)  # an impact below the stop velocity has depth 0

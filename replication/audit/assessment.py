@@ -1,7 +1,7 @@
 """What an audit concludes about a printed number or an equation, and what that rests on."""
 
 from collections.abc import Mapping, Sequence
-from enum import StrEnum
+from enum import Enum, StrEnum, auto
 from fractions import Fraction
 
 import msgspec
@@ -31,14 +31,14 @@ class Verdict(StrEnum):
         return self in (Verdict.NOT_REPRODUCED, Verdict.INCONSISTENT)
 
     @property
-    def is_open(self) -> bool:
+    def needs_explanation(self) -> bool:
         """Whether the inputs as printed do not give the entry: explanations are tried for these."""
         return self.is_failure or self in (Verdict.UNDECIDED, Verdict.WITHIN_ROUNDING)
 
     @property
     def is_doubtful(self) -> bool:
-        """Whether it is open or differs from public sources: `power` counts it as noticed."""
-        return self.is_open or self is Verdict.DIFFERS
+        """Whether it needs one or differs from public sources: `power` counts it as noticed."""
+        return self.needs_explanation or self is Verdict.DIFFERS
 
 
 class Standing(StrEnum):
@@ -53,6 +53,28 @@ class Standing(StrEnum):
     EVIDENCE = "evidence"
     BY_DEFINITION = "by definition"
     REPEATS = "repeats"
+
+
+class Ground(Enum):
+    """On what a claim's verdict was decided; its explanation tells that, and nothing else.
+
+    WORDS: it is a remark, not a number. REPETITION: another number of the report, or a count.
+    COMPUTATION: the value that the report's formulas give for the inputs as printed. NO_VALUE: they
+    give none. EQUATION: the checks of the equation in which it stands. SOURCES: what public sources
+    print. OTHERS: the claims that are computed from it. COMPARISON: a number that limits it.
+    DEFINITION: there is nothing to decide. NOTHING: the report does not decide it.
+    """
+
+    WORDS = auto()
+    REPETITION = auto()
+    COMPUTATION = auto()
+    NO_VALUE = auto()
+    EQUATION = auto()
+    SOURCES = auto()
+    OTHERS = auto()
+    COMPARISON = auto()
+    DEFINITION = auto()
+    NOTHING = auto()
 
 
 class Judgement(msgspec.Struct, frozen=True):
@@ -99,13 +121,14 @@ class Reading(msgspec.Struct, frozen=True):
 
 
 class Assessment(msgspec.Struct, frozen=True):
-    """The verdict on a claim, and the readings behind it, the one as printed first.
+    """The verdict on a claim, its ground, and the readings behind it, the one as printed first.
 
     `no_value` says why the inputs as printed give no value, where they should. `standing` is what a
     reproduced number tells, and `compared` what a number was compared with that nothing computes.
     """
 
     verdict: Verdict
+    ground: Ground
     readings: tuple[Reading, ...] = ()
     no_value: str = ""
     standing: Standing | None = None

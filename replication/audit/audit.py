@@ -112,8 +112,8 @@ class Audit(Results):
         claim = self.ledger.claims[name]
         assessment = self.judge.assess(claim)
         computed = assessment.readings[0].computed if assessment.readings else None
-        is_open, is_computed = assessment.verdict.is_open, computed is not None
-        tried, fitting = self.slips(claim) if is_open and "eq16" in claim.uses else (None, [])
+        explain, is_computed = assessment.verdict.needs_explanation, computed is not None
+        tried, fitting = self.slips(claim) if explain and "eq16" in claim.uses else (None, [])
         return r.ClaimRecord(
             claim=claim,
             assessment=assessment,
@@ -125,8 +125,8 @@ class Audit(Results):
             confirmed_range=self.judge.confirmed_range(claim),
             sources=self.judge.sources(name),
             figures=remarks.figures(self, claim),
-            back_solved=self.explainer.back_solved(claim) if is_open and is_computed else [],
-            repairs=self.explainer.repairs(name) if is_open else [],
+            back_solved=self.explainer.back_solved(claim) if explain and is_computed else [],
+            repairs=self.explainer.repairs(name) if explain else [],
             slips=fitting,
             slips_tried=tried,
         )
@@ -142,7 +142,7 @@ class Audit(Results):
         equations = _Evaluations(self.ledger.sides)
         compute = self.ledger.function(claim, equations=equations)
         with suppress(ArithmeticError):  # the value itself may be irrational
-            compute(Rationals(), **{entry: self.judge.value(entry) for entry in claim.entries})
+            compute(Rationals(), **{entry: self.judge.value(entry) for entry in claim.input_ids})
         if equations.last is None:
             return None
         equation, values = equations.last  # which may give the value itself

@@ -21,12 +21,12 @@ from replication.text import number
 
 
 class CrossCheck(msgspec.Struct, frozen=True):
-    """Whether a number agrees with what it is compared with, and what that is.
+    """Whether a number passes what it is compared with, and what that is.
 
     with_sources: it is compared with what public sources print, not with the report.
     """
 
-    agrees: bool
+    passes: bool
     says: str
     with_sources: bool = False
 
@@ -73,13 +73,13 @@ def brinell_ratio(ledger: Ledger) -> CrossCheck:
     """Section 3: hardness over tensile strength, by two rules for steels and by a sheet of 304."""
     of_304, rules = brinell_factors(ledger)
     three = parse("3").interval()
-    agrees = all(three.contains(Fraction(ratio)) for ratio in rules)
+    passes = all(three.contains(Fraction(ratio)) for ratio in rules)
     says = (
         f"By the rules that public sources print for steels it is {number(min(rules), 3)} to "
         f"{number(max(rules), 3)}, which rounds to three. The hardness and the strength on a sheet "
         f"of 304 give {number(of_304, 3)}, which does not: the rule fits annealed 304 less well."
     )
-    return CrossCheck(agrees, says, with_sources=True)
+    return CrossCheck(passes, says, with_sources=True)
 
 
 class CrossCheckFunction(NamedTuple):

@@ -22,7 +22,7 @@ from replication.audit.record import BackSolved, Proof, Repair
 from replication.audit.verdict import (
     Judge,
     Replacements,
-    agrees,
+    comes_out,
     disagreeing,
     follows,
     is_contradicted,
@@ -40,14 +40,14 @@ def dependents(ledger: Ledger, name: str) -> set[str]:
     direct = {
         claim.id
         for claim in ledger.claims.values()
-        if name in (claim.id, *claim.entries) or within in claim.uses
+        if name in (claim.id, *claim.input_ids) or within in claim.uses
     }
     changed = {name}
     for key, inferred in ledger.inferred.items():
         if direct & set(inferred.evidence):
             unknown = INFERRED + key
             changed.add(unknown)
-            direct |= {c.id for c in ledger.claims.values() if unknown in c.entries}
+            direct |= {c.id for c in ledger.claims.values() if unknown in c.input_ids}
     direct |= {claim for claim in CROSS_CHECKS if not changed.isdisjoint(compared_with(claim))}
     return direct | {c.id for c in ledger.claims.values() if direct & set(c.shown_by)}
 
@@ -73,7 +73,7 @@ class Explainer:
     def back_solved(self, claim: Claim) -> list[BackSolved]:
         """Return, for every reading and input, the values of this input that give the number."""
         ledger, records = self.ledger, []
-        for reading, name in product(claim.computations, claim.entries):
+        for reading, name in product(claim.computations, claim.input_ids):
             entry = ledger.claims.get(name)
             if entry is not None and entry.is_exact and not entry.quantity:
                 continue
@@ -100,7 +100,7 @@ class Explainer:
 
     def solutions(self, claim: Claim, reading: str, name: str) -> SolutionSet:
         """Return the values (SI) of an entry, the others as printed, for which a reading agrees."""
-        others = {entry: self.judge.value(entry) for entry in claim.entries if entry != name}
+        others = {entry: self.judge.value(entry) for entry in claim.input_ids if entry != name}
         function = self.ledger.function(claim, reading=reading)
         low, high, _ = self.ledger.search(name)
         budget = SHEET_BUDGET if claim.by_whole_sheet else _BUDGET
@@ -156,7 +156,7 @@ class Explainer:
             beside = {claim.within} if claim.within else set()
             compared = ledger.claims.keys() & compared_with(name)
             suspects = {name, *claim.stated} | beside | equations | compared
-            for unknown in self.judge.moved.intersection(claim.entries):
+            for unknown in self.judge.moved.intersection(claim.input_ids):
                 # Its evidence excludes the nominal value, so what that rests on may be misprinted.
                 evidence = ledger.inferred[unknown.removeprefix(INFERRED)].evidence
                 suspects |= {entry for piece in evidence for entry in ledger.claims[piece].stated}
@@ -174,7 +174,7 @@ class Explainer:
         claim = changed.claims[name]
         if claim.computation is not None:
             pairs = product(claim.computations, self._alternatives)
-            return next((r for r, values in pairs if agrees(changed, claim, values, r)), None)
+            return next((r for r, values in pairs if comes_out(changed, claim, values, r)), None)
         own = entry == name and self.judge.is_confirmed(claim, claim.value)
         related = own or entry in compared_with(name)
         return "" if related and not is_contradicted(changed, name) else None

@@ -12,6 +12,7 @@ from reference.enclosure import (
     Box,
     Constraint,
     Ends,
+    Satisfiability,
     SolutionSet,
     bounds,
     find_solutions,
@@ -66,7 +67,7 @@ class Inference:
         self.by_claim: dict[str, SolutionSet] = {}
         for claim in map(ledger.claims.__getitem__, self.entry.evidence):
             resting = claim.resting_on(mass=self.entry.mass) if by_mass else claim
-            printed = {key: ledger.value(key) for key in resting.entries if key != name}
+            printed = {key: ledger.value(key) for key in resting.input_ids if key != name}
             function, search = ledger.function(resting, scheme=scheme), self.entry.search
             target = claim.target(rounding)
             self.by_claim[claim.id] = find_solutions(function, name, search, target, others=printed)
@@ -109,7 +110,7 @@ class Inference:
         claim = self.ledger.claims[name]
         low, high = claim.as_input(convention).ends
         for shown in map(self.ledger.claims.__getitem__, claim.shown_by):
-            if low != high and shown.entries == [name]:
+            if low != high and shown.input_ids == [name]:
                 function = self.ledger.function(shown)
                 allowed = find_solutions(function, name, (low, high), shown.target()).outer
                 low, high = (allowed[0][0], allowed[-1][1]) if allowed else (low, high)
@@ -125,7 +126,7 @@ class Inference:
         """
         claims, entry = self.ledger.claims, self.entry
         evidence = [claims[key] for key in (*entry.header, *self.agreeing)]
-        names = {name for claim in evidence for name in claim.entries} - {self.name}
+        names = {name for claim in evidence for name in claim.input_ids} - {self.name}
         constraints: list[Constraint] = [
             (self.ledger.function(claim, scheme=self.scheme), claim.target()) for claim in evidence
         ]
@@ -165,9 +166,11 @@ class Inference:
                 continue
             # The bounds hold for each piece of evidence by itself, and may admit too much.
             within = max(low, least), min(high, greatest)
-            admitted, _ = satisfying(*self.joint(convention, {self.name: within}))
-            if admitted is not False:
-                return admission if admitted else Admission.UNDECIDED
+            outcome, _ = satisfying(*self.joint(convention, {self.name: within}))
+            if outcome is Satisfiability.SHOWN:
+                return admission
+            if outcome is Satisfiability.UNDECIDED:
+                return Admission.UNDECIDED
         return Admission.EXCLUDED
 
 

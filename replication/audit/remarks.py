@@ -7,23 +7,24 @@ of its own. With a misprint planted in the report a figure may have no value; it
 """
 
 from collections.abc import Callable
-from itertools import product
+from fractions import Fraction
 from math import erfc, isfinite, log1p, pi, sqrt
 from statistics import NormalDist
-from typing import Any
 
 from reference.ledger import Claim
+from reference.printed import decimal_text
 from reference.scheme import Scheme
+from reference.units import to_si
 from replication.audit.comparison import BETAS
 from replication.audit.findings.resistance import johnson_cook_copper, resistances
 from replication.audit.findings.sheet import depth_by_sheet
 from replication.audit.findings.stream import GAUSSIAN
+from replication.audit.particle_sizes import Law, diameter_power, velocity_by_size
 from replication.audit.record import Figure
-from replication.audit.results import DERIVED, Results, case, exact_ratio
+from replication.audit.results import DERIVED, Results, case, exact_ratio, of_beta
 from replication.models import sheet
 from replication.models.crater import contact_diameter, volume_ratio
 from replication.models.estimates import penetration_threshold
-from replication.models.impact import InputError
 from replication.models.inverse import velocity_for_depth
 
 
@@ -32,11 +33,11 @@ def figures(results: Results, claim: Claim) -> list[Figure]:
     return REMARKS[claim.id](results) if claim.id in REMARKS else []
 
 
-def quantified(means: str, unit: str, compute: Callable[..., float], *arguments: Any) -> Figure:
+def quantified(means: str, unit: str, compute: Callable[[], float]) -> Figure:
     """Return a figure with the computed number, in the unit; None if it has no finite value."""
     try:
-        value = float(compute(*arguments))
-    except (ArithmeticError, InputError, LookupError, ValueError):
+        value = float(compute())
+    except (ArithmeticError, LookupError, ValueError):
         return Figure(means=means, value=None, unit=unit)
     return Figure(means=means, value=value if isfinite(value) else None, unit=unit)
 
@@ -71,27 +72,13 @@ def percent_more(value: float, than: float) -> float:
     return 100 * (value / than - 1)
 
 
-LAWS = (("Eq. 1", "eq1-power"), ("drag on a sphere", ""))
-"""Two laws of a particle's velocity by its size, and the claim that prints the power, if any."""
-
-
 EXTREMES = (("smallest", "particle-size-least"), ("largest", "particle-size-greatest"))
 """The extreme particles of Figure 1, and the claims that print their diameters."""
 
 
-def stream_velocity(results: Results, stream: str, size: str, power: str) -> float:
-    """Velocity [m/s] of a particle of this size in a stream with this average, both by claim.
-
-    It is proportional to the mass to a power, by Eq. 1 (whose power a claim prints), or to the
-    diameter to the power -1/2, by drag on a sphere.
-    """
-    faster: float = (results["mean-diameter"] / results[size]) ** by_diameter(results, power)
-    return results[stream] * faster
-
-
-def by_diameter(results: Results, power: str) -> float:
-    """Return the power of 1/diameter to which a law makes the velocity proportional."""
-    return 3 * results[power] if power else 0.5
+def velocity_in_stream(results: Results, stream: str, size: str, law: Law) -> float:
+    """Velocity [m/s] of a particle of this size in a stream with this average, both by claim."""
+    return velocity_by_size(results, results[stream], results[size], law)
 
 
 # Section 2
@@ -100,50 +87,58 @@ def by_diameter(results: Results, power: str) -> float:
 def eq1_agreement(results: Results) -> list[Figure]:
     """Section 2: Eq. 1 is in "not good quantitative agreement" with experiments."""
 
-    def deviation(power: str) -> float:
+    def deviation(law: Law) -> float:
         sizes = results["diameter-deviation"] / results["mean-diameter"]
-        return by_diameter(results, power) * sizes * results["a1-initial-velocity"] * GAUSSIAN
+        power = float(diameter_power(results, law))
+        return power * sizes * results["a1-initial-velocity"] * GAUSSIAN
+
+    def by_law(law: Law) -> Figure:
+        means = (
+            f"mean deviation at {results.text('a1-initial-velocity')} m/s by {law}, to first order "
+            "in the printed sizes"
+        )
+        return quantified(means, "m/s", lambda: deviation(law))
 
     stated = "mean deviation of the velocity that section 4 states"
-    means = "mean deviation at 500 m/s by {}, to first order in the printed sizes"
     return [
-        *(quantified(means.format(law), "m/s", deviation, power) for law, power in LAWS),
-        quantified(stated, "m/s", results.__getitem__, "velocity-deviation"),
+        *map(by_law, Law),
+        quantified(stated, "m/s", lambda: results["velocity-deviation"]),
     ]
 
 
 def smaller_faster(results: Results) -> list[Figure]:
     """Section 2: "the smaller particles have a higher velocity than the mean", by Eq. 1."""
-    return [
-        quantified(
-            f"velocity of the {which} particle of the 521-m/s data by {law}", "m/s",
-            stream_velocity, results, "velocity-521", size, power,
-        )
-        for (which, size), (law, power) in product(EXTREMES, LAWS)
-    ]  # fmt: skip
+
+    def velocity(which: str, size: str, law: Law) -> Figure:
+        data = f"the {results.text('velocity-521')}-m/s data"
+        return quantified(
+            f"velocity of the {which} particle of {data} by {law}", "m/s",
+            lambda: velocity_in_stream(results, "velocity-521", size, law),
+        )  # fmt: skip
+
+    return [velocity(which, size, law) for which, size in EXTREMES for law in Law]
 
 
 def clustered_small(results: Results) -> list[Figure]:
     """Section 2: of the data points more are "clustered at the lower end of the range"."""
+    ends = results.exact("particle-size-least"), results.exact("particle-size-greatest")
+    middle = (ends[0] + ends[1]) / 2
+    least, greatest = (results.text(f"particle-size-{end}") for end in ("least", "greatest"))
 
-    def share(of_range: Callable[[float, float], float]) -> float:
-        least, greatest = results["particle-size-least"], results["particle-size-greatest"]
+    def share(of_range: float) -> float:
+        low, high = map(float, ends)
         below = NormalDist(results["mean-diameter"], results["diameter-deviation"]).cdf
-        return (
-            100
-            * (below(of_range(least, greatest)) - below(least))
-            / (below(greatest) - below(least))
-        )
+        return 100 * (below(of_range) - below(low)) / (below(high) - below(low))
 
     return [
         quantified(
-            "share of the powder's particles of 10 to 30 um that are below 20 um, their sizes "
-            "Gaussian as printed",
-            "percent", share, lambda least, greatest: (least + greatest) / 2,
+            f"share of the powder's particles of {least} to {greatest} um that are below "
+            f"{decimal_text(middle / to_si('um'))} um, their sizes Gaussian as printed",
+            "percent", lambda: share(float(middle)),
         ),
         quantified(
-            "the same below the mean of 22 um", "percent", share,
-            lambda _, __: results["mean-diameter"],
+            f"the same below the mean of {results.text('mean-diameter')} um", "percent",
+            lambda: share(results["mean-diameter"]),
         ),
     ]  # fmt: skip
 
@@ -154,22 +149,30 @@ def regardless_of_size(results: Results) -> list[Figure]:
     def crater(beta: int) -> float:
         return volume_ratio(exact_ratio(case(results, beta, velocity=results["velocity-521"])))
 
-    means = "CV/PV of the model at 521 m/s, the same for every size, beta = {}"
+    def of_model(beta: int) -> Figure:
+        means = (
+            f"CV/PV of the model at {results.text('velocity-521')} m/s, the same for every size, "
+            f"{of_beta(results, beta)}"
+        )
+        return quantified(means, "1", lambda: crater(beta))
+
     return [
-        *(quantified(means.format(beta), "1", crater, beta) for beta in BETAS),
-        quantified("least CV/PV of the data", "1", results.__getitem__, "volume-ratio-line"),
+        *map(of_model, BETAS),
+        quantified("least CV/PV of the data", "1", lambda: results["volume-ratio-line"]),
     ]
 
 
 def certainly_higher(results: Results) -> list[Figure]:
     """Section 2: as none stuck at 403 m/s, the minimum velocity "would certainly be higher"."""
-    return [
-        quantified(
-            f"velocity of the smallest particle, 10 um, in the stream of 403 m/s by {law}", "m/s",
-            stream_velocity, results, "velocity-403", "particle-size-least", power,
-        )
-        for law, power in LAWS
-    ]  # fmt: skip
+    size, stream = results.text("particle-size-least"), results.text("velocity-403")
+
+    def velocity(law: Law) -> Figure:
+        return quantified(
+            f"velocity of the smallest particle, {size} um, in the stream of {stream} m/s by {law}",
+            "m/s", lambda: velocity_in_stream(results, "velocity-403", "particle-size-least", law),
+        )  # fmt: skip
+
+    return list(map(velocity, Law))
 
 
 def surprisingly_shallow(results: Results) -> list[Figure]:
@@ -178,13 +181,14 @@ def surprisingly_shallow(results: Results) -> list[Figure]:
     def over_diameter() -> float:
         return 100 * results["observed-depth"] / results["observed-depth-diameter"]
 
-    def over_model(beta: int) -> float:
-        return results["observed-depth"] / results[f"depth-beta-{beta}"]
+    def over_model(beta: int) -> Figure:
+        means = f"the observed over the printed depth of the model, {of_beta(results, beta)}"
+        depth = f"depth-beta-{beta}"
+        return quantified(means, "1", lambda: results["observed-depth"] / results[depth])
 
-    means = "the observed over the printed depth of the model, beta = {}"
     return [
         quantified("observed depth over the particle's diameter", "percent", over_diameter),
-        *(quantified(means.format(beta), "1", over_model, beta) for beta in BETAS),
+        *map(over_model, BETAS),
     ]
 
 
@@ -199,7 +203,7 @@ def profile_consistent(results: Results) -> list[Figure]:
 
     return [
         quantified("X/R of that profile for a mean particle", "1", of_mean_particle),
-        quantified("X/R observed", "1", results.__getitem__, "observed-depth-ratio"),
+        quantified("X/R observed", "1", lambda: results["observed-depth-ratio"]),
         quantified("diameter of a particle for which the profile has that X/R", "um", diameter),
     ]
 
@@ -222,7 +226,10 @@ def larger_grain(results: Results) -> list[Figure]:
     def around_three() -> float:
         return (1 + 2 / sqrt(3)) * crater()
 
-    third = "a particle of 20 um pressed in by a third of its radius"
+    third = (
+        f"a particle of {results.text(diameter)} um pressed in by a "
+        f"{results.text('observed-third')} of its radius"
+    )
     return [
         quantified(
             "diameter of a grain around three craters side by side, over a particle's", "1",
@@ -235,40 +242,40 @@ def larger_grain(results: Results) -> list[Figure]:
 def copper_stronger(results: Results) -> list[Figure]:
     """Section 3: a rigid particle needs a strength "greater than the target resistance"."""
 
-    def resistance(beta: int) -> float:
-        return float(resistances(results)[beta]) / 1e9
+    def resistance(beta: int) -> Figure:
+        means = f"target resistance, {of_beta(results, beta)}"
+        return quantified(means, "GPa", lambda: float(resistances(results)[beta]) / 1e9)
 
     return [
         quantified("strength quoted for copper", "GPa", lambda: results["copper-yield"] / 1e9),
-        *(quantified(f"target resistance, beta = {b}", "GPa", resistance, b) for b in BETAS),
+        *map(resistance, BETAS),
     ]
 
 
 def particle_stronger(results: Results) -> list[Figure]:
     """Section 3: a particle's strength "may be much higher" than that of bulk copper."""
 
-    def multiple(beta: int) -> float:
-        return float(resistances(results)[beta]) / results["copper-yield"]
+    def multiple(beta: int) -> Figure:
+        means = f"target resistance over the strength quoted for copper, {of_beta(results, beta)}"
+        return quantified(
+            means, "1", lambda: float(resistances(results)[beta]) / results["copper-yield"]
+        )
 
-    means = "target resistance over the strength quoted for copper, beta = {}"
-    return [quantified(means.format(beta), "1", multiple, beta) for beta in BETAS]
+    return list(map(multiple, BETAS))
 
 
 def rates_far_higher(results: Results) -> list[Figure]:
     """Section 3: strain rates of the impact are "far higher" than split-Hopkinson bars reach."""
+    (_, greatest) = results.ledger.sources["hopkinson-rates"].numbers
 
     def rate() -> float:
         return results["strain-rate-velocity"] / results["strain-rate-length"]
 
-    def times() -> float:
-        (_, greatest) = results.ledger.sources["hopkinson-rates"].numbers
-        return rate() / float(greatest.value)
-
     return [
         quantified(
-            "strain rate of the impact over 10,000 per second, up to which a public source says "
-            "that these bars are generally used",
-            "1", times,
+            f"strain rate of the impact over {greatest.text} per second, up to which a public "
+            "source says that these bars are generally used",
+            "1", lambda: rate() / float(greatest.value),
         ),
         quantified("strain rate, velocity over diameter as printed", "1/s", rate),
     ]  # fmt: skip
@@ -276,16 +283,16 @@ def rates_far_higher(results: Results) -> list[Figure]:
 
 def strength_rises(results: Results) -> list[Figure]:
     """Section 3: copper's strength can be expected to "increase with increasing strain rate"."""
+    rate, law = results.ledger.claims["strain-rate"].text, "Johnson and Cook's law for copper"
 
     def times() -> float:
         slow = results["copper-johnson-cook"] + results["copper-johnson-cook-hardening"]
         return johnson_cook_copper(results) / slow
 
-    law = "Johnson and Cook's law for copper"
     return [
-        quantified(f"flow stress at 10^7 over that at 1 per second by {law}", "1", times),
+        quantified(f"flow stress at {rate} over that at 1 per second by {law}", "1", times),
         quantified(
-            f"flow stress at 10^7 per second and strain 1 by {law}, far beyond its fit", "MPa",
+            f"flow stress at {rate} per second and strain 1 by {law}, far beyond its fit", "MPa",
             lambda: johnson_cook_copper(results) / 1e6,
         ),
     ]  # fmt: skip
@@ -293,126 +300,145 @@ def strength_rises(results: Results) -> list[Figure]:
 
 def coarse_step(results: Results) -> list[Figure]:
     """Section 3: the results "did not change significantly" with a time step of 0.5 ns."""
+    return [
+        figure
+        for beta in BETAS
+        for scheme in Scheme
+        for figure in _coarse_and_fine(results, beta, scheme)
+    ]
 
-    def micrometers(beta: int, scheme: Scheme, step: str) -> float:
+
+def _coarse_and_fine(results: Results, beta: int, scheme: Scheme) -> list[Figure]:
+    """Return the change of the final depth with a coarse time step, and both depths."""
+    words = f"{of_beta(results, beta)}, drag at the {scheme.drag_at} velocity"
+
+    def micrometers(step: str) -> float:
         return depth_by_sheet(results, beta, scheme, step) * 1e6
 
-    def change(beta: int, scheme: Scheme) -> float:
-        coarse, fine = (micrometers(beta, scheme, step) for step in ("coarse-step", "a-step"))
-        return percent_more(coarse, fine)
+    def at_step(step: str) -> Figure:
+        means = f"final depth at {results.text(step)} ns, {words}"
+        return quantified(means, "um", lambda: micrometers(step))
 
-    shown = []
-    for beta, scheme in product(BETAS, Scheme):
-        words = f"beta = {beta}, drag at the {scheme.drag_at} velocity"
-        shown.append(quantified(f"change, {words}", "percent", change, beta, scheme))
-        for step in ("a-step", "coarse-step"):
-            means = f"final depth at {results.text(step)} ns, {words}"
-            shown.append(quantified(means, "um", micrometers, beta, scheme, step))
-    return shown
+    def change() -> float:
+        return percent_more(micrometers("coarse-step"), micrometers("a-step"))
+
+    return [
+        quantified(f"change, {words}", "percent", change),
+        at_step("a-step"),
+        at_step("coarse-step"),
+    ]
 
 
 def large_difference(results: Results) -> list[Figure]:
     """Section 3: "there is a large difference" between the model and the observations."""
 
-    def over_observed(beta: int) -> float:
-        return results[f"ratio-beta-{beta}"] / results["observed-ratio"]
+    def over_observed(beta: int) -> Figure:
+        means = f"X/R of the model over the observed one, {of_beta(results, beta)}"
+        ratio = f"ratio-beta-{beta}"
+        return quantified(means, "1", lambda: results[ratio] / results["observed-ratio"])
 
-    means = "X/R of the model over the observed one, beta = {}"
-    return [quantified(means.format(beta), "1", over_observed, beta) for beta in BETAS]
+    return list(map(over_observed, BETAS))
 
 
 def rigid_attribution(results: Results) -> list[Figure]:
     """Section 3: the disparity is "most likely attributable to the rigid body assumption"."""
 
-    def least_velocity(beta: int) -> float:
+    def threshold(beta: int) -> float:
         return penetration_threshold(
             particle_strength=results["copper-yield"],
             resistance=float(resistances(results)[beta]),
             particle_density=results["a1-density"],
         )
 
-    means = (
-        "velocity below which copper of the quoted strength does not penetrate, Eq. 5, beta = {}"
-    )
-    return [quantified(means.format(beta), "m/s", least_velocity, beta) for beta in BETAS]
+    def least_velocity(beta: int) -> Figure:
+        means = (
+            "velocity below which copper of the quoted strength does not penetrate, Eq. 5, "
+            f"{of_beta(results, beta)}"
+        )
+        return quantified(means, "m/s", lambda: threshold(beta))
+
+    return list(map(least_velocity, BETAS))
 
 
 def attempts_no_better(results: Results) -> list[Figure]:
     """Section 3: attempts with a particle that deforms "did no better"; none of them is given."""
 
-    def apart(beta: int) -> float:
-        return results[f"ratio-beta-{beta}"] - results["observed-ratio"]
+    def apart(beta: int) -> Figure:
+        means = (
+            f"X/R of the rigid model less the observed one, as printed, {of_beta(results, beta)}"
+        )
+        ratio = f"ratio-beta-{beta}"
+        return quantified(means, "1", lambda: results[ratio] - results["observed-ratio"])
 
-    means = "X/R of the rigid model less the observed one, as printed, beta = {}"
-    return [quantified(means.format(beta), "1", apart, beta) for beta in BETAS]
+    return list(map(apart, BETAS))
 
 
 def frank_zook_below_observed(results: Results) -> list[Figure]:
     """Section 3: Frank and Zook's X/R is "slightly less" than that of section 2."""
-
-    def below(compute: Callable[..., float], *arguments: Any) -> float:
-        return percent_more(compute(*arguments), results["observed-depth-ratio"])
-
     armor, observed = "frank-zook-rha", f"over the observed {results.text('observed-depth-ratio')}"
+
+    def below(form: str, ratio: Callable[[], float]) -> Figure:
+        return quantified(
+            f"X/R {form} {observed}, less 1", "percent",
+            lambda: percent_more(ratio(), results["observed-depth-ratio"]),
+        )  # fmt: skip
+
     return [
-        quantified(
-            f"X/R as printed {observed}, less 1", "percent", below, results.__getitem__, armor
-        ),
-        quantified(
-            f"X/R derived from Eqs. 14 and 15 {observed}, less 1", "percent",
-            below, results.computed, armor, DERIVED,
-        ),
-        quantified(
-            f"X/R by Eq. 16 as printed {observed}, less 1", "percent",
-            below, results.computed, armor,
-        ),
-    ]  # fmt: skip
+        below("as printed", lambda: results[armor]),
+        below("derived from Eqs. 14 and 15", lambda: results.computed(armor, DERIVED)),
+        below("by Eq. 16 as printed", lambda: results.computed(armor)),
+    ]
 
 
 def strength_difference(results: Results) -> list[Figure]:
     """Section 3: the strength of stainless steel "might account for some of the difference"."""
-
-    def share(compute: Callable[..., float], *arguments: Any) -> float:
-        armor, steel = (compute(f"frank-zook-{name}", *arguments) for name in ("rha", "stainless"))
-        return 100 * (steel - armor) / (results["observed-depth-ratio"] - armor)
-
     R_t = results.text("fz-resistance-stainless", "GPa")
-    means = f"share of the distance to the observed X/R that R_t = {R_t} GPa closes, {{}}"
+
+    def share(form: str, ratio: Callable[[str], float]) -> Figure:
+        def percent() -> float:
+            armor, steel = ratio("frank-zook-rha"), ratio("frank-zook-stainless")
+            return 100 * (steel - armor) / (results["observed-depth-ratio"] - armor)
+
+        means = f"share of the distance to the observed X/R that R_t = {R_t} GPa closes, {form}"
+        return quantified(means, "percent", percent)
+
     return [
-        quantified(means.format("as printed"), "percent", share, results.__getitem__),
-        quantified(means.format("Eqs. 14 and 15"), "percent", share, results.computed, DERIVED),
-        quantified(means.format("Eq. 16 as printed"), "percent", share, results.computed),
+        share("as printed", lambda claim: results[claim]),
+        share("Eqs. 14 and 15", lambda claim: results.computed(claim, DERIVED)),
+        share("Eq. 16 as printed", lambda claim: results.computed(claim)),
     ]
-
-
-CODES = (("Autodyne", "autodyne-ratio"), ("CTH", "cth-ratio"))
-"""The hydrocodes, and the claims that print their X/R."""
 
 
 def closest_approach(results: Results) -> list[Figure]:
     """Section 3: Frank and Zook's "comes closer" to the data "than the other approaches tested"."""
 
-    def apart(means: str, compute: Callable[..., float], *arguments: Any) -> Figure:
-        def less_observed() -> float:
-            return compute(*arguments) - results["observed-depth-ratio"]
+    def apart(approach: str, ratio: Callable[[], float]) -> Figure:
+        return quantified(
+            f"X/R less the observed one, {approach}", "1",
+            lambda: ratio() - results["observed-depth-ratio"],
+        )  # fmt: skip
 
-        return quantified(f"X/R less the observed one, {means}", "1", less_observed)
-
-    def exact(beta: int) -> float:
-        return exact_ratio(case(results, beta))
-
-    shown = []
-    for target, words in (("rha", "armor"), ("stainless", "stainless steel")):
-        claim, by = f"frank-zook-{target}", f"Frank and Zook, {words}"
-        shown += [
-            apart(f"{by}, printed", results.__getitem__, claim),
-            apart(f"{by}, Eq. 16", results.computed, claim),
-            apart(f"{by}, Eqs. 14 and 15", results.computed, claim, DERIVED),
+    def by_frank_zook(target: str, claim: str) -> list[Figure]:
+        return [
+            apart(f"Frank and Zook, {target}, printed", lambda: results[claim]),
+            apart(f"Frank and Zook, {target}, Eq. 16", lambda: results.computed(claim)),
+            apart(
+                f"Frank and Zook, {target}, Eqs. 14 and 15",
+                lambda: results.computed(claim, DERIVED),
+            ),
         ]
-    shown += [apart(f"model, beta = {beta}, exact", exact, beta) for beta in BETAS]
-    for code, claim in CODES:
-        shown.append(apart(code, results.__getitem__, claim))
-    return shown
+
+    def by_model(beta: int) -> Figure:
+        approach = f"model, {of_beta(results, beta)}, exact"
+        return apart(approach, lambda: exact_ratio(case(results, beta)))
+
+    return [
+        *by_frank_zook("armor", "frank-zook-rha"),
+        *by_frank_zook("stainless steel", "frank-zook-stainless"),
+        *map(by_model, BETAS),
+        apart("Autodyne", lambda: results["autodyne-ratio"]),
+        apart("CTH", lambda: results["cth-ratio"]),
+    ]
 
 
 # Section 4
@@ -421,28 +447,27 @@ def closest_approach(results: Results) -> list[Figure]:
 def same_calculation(results: Results) -> list[Figure]:
     """Section 4: Autodyne "was used for the same calculation"; its inputs over the model's."""
 
-    def over(autodyne: str, model: str) -> float:
-        return results[autodyne] / results[model]
+    def over(what: str, autodyne: str, model: str) -> Figure:
+        means = f"{what}, Autodyne's over that of the model's text"
+        return quantified(means, "1", lambda: results[autodyne] / results[model])
 
-    pairs = (
-        ("flow stress of the steel", "autodyne-steel-yield", "flow-stress"),
-        ("strength of the copper", "autodyne-copper-yield", "copper-yield"),
-        ("diameter of the particle", "autodyne-diameter", "mean-diameter"),
-    )
     return [
-        quantified(f"{what}, Autodyne's over that of the model's text", "1", over, *claims)
-        for what, *claims in pairs
+        over("flow stress of the steel", "autodyne-steel-yield", "flow-stress"),
+        over("strength of the copper", "autodyne-copper-yield", "copper-yield"),
+        over("diameter of the particle", "autodyne-diameter", "mean-diameter"),
     ]
 
 
 def codes_overestimate(results: Results) -> list[Figure]:
     """Section 4: "more sophisticated codes also over-estimate the depth of penetration"."""
 
-    def excess(claim: str) -> float:
-        return percent_more(results[claim], results["observed-depth-ratio"])
+    def excess(code: str, claim: str) -> Figure:
+        return quantified(
+            f"{code}'s X/R over the observed one, less 1", "percent",
+            lambda: percent_more(results[claim], results["observed-depth-ratio"]),
+        )  # fmt: skip
 
-    means = "{}'s X/R over the observed one, less 1"
-    return [quantified(means.format(code), "percent", excess, claim) for code, claim in CODES]
+    return [excess("Autodyne", "autodyne-ratio"), excess("CTH", "cth-ratio")]
 
 
 def flat_surface(results: Results) -> list[Figure]:
@@ -452,22 +477,20 @@ def flat_surface(results: Results) -> list[Figure]:
     (4 rho_p/3 rho_t) ln(1 + rho_t V^2/2R_t).
     """
 
-    def flat(beta: int) -> float:
+    def flat_ratio(beta: int) -> float:
         x = case(results, beta)
         drag = x.target_density * x.velocity**2 / (2 * x.target_resistance)
         return 4 * x.particle_density / (3 * x.target_density) * log1p(drag)
 
-    def sphere(beta: int) -> float:
-        return exact_ratio(case(results, beta))
+    def flat(beta: int) -> Figure:
+        means = "X/R if the contact is as wide as the sphere from the start"
+        return quantified(f"{means}, {of_beta(results, beta)}", "1", lambda: flat_ratio(beta))
 
-    wide, round_ = "X/R if the contact is as wide as the sphere from the start", "exact X/R"
-    return [
-        *(quantified(f"{wide}, beta = {beta}", "1", flat, beta) for beta in BETAS),
-        *(
-            quantified(f"{round_} of the sphere, beta = {beta}", "1", sphere, beta)
-            for beta in BETAS
-        ),
-    ]
+    def sphere(beta: int) -> Figure:
+        means = f"exact X/R of the sphere, {of_beta(results, beta)}"
+        return quantified(means, "1", lambda: exact_ratio(case(results, beta)))
+
+    return [*map(flat, BETAS), *map(sphere, BETAS)]
 
 
 def elastic_rebound(results: Results) -> list[Figure]:
@@ -478,134 +501,163 @@ def elastic_rebound(results: Results) -> list[Figure]:
     all nu this makes it largest.
     """
 
-    def rebound(beta: int) -> float:
+    def back(beta: int) -> float:
         x = case(results, beta)
         depth = exact_ratio(x)
         pressure = x.target_resistance / results["elastic-modulus"]
         return 3 * pi / 4 * pressure * sqrt(2 * depth - depth**2)
 
-    def apart(beta: int) -> float:
-        return exact_ratio(case(results, beta)) - results["observed-depth-ratio"]
+    def rebound(beta: int) -> Figure:
+        means = (
+            "depth over R by which the model's crater springs back at most (Hertz, rigid "
+            f"particle), {of_beta(results, beta)}"
+        )
+        return quantified(means, "1", lambda: back(beta))
 
-    back = "depth over R by which the model's crater springs back at most (Hertz, rigid particle)"
-    return [
-        *(quantified(f"{back}, beta = {beta}", "1", rebound, beta) for beta in BETAS),
-        *(quantified(f"exact X/R less the observed one, beta = {b}", "1", apart, b) for b in BETAS),
-    ]
+    def apart(beta: int) -> Figure:
+        return quantified(
+            f"exact X/R less the observed one, {of_beta(results, beta)}", "1",
+            lambda: exact_ratio(case(results, beta)) - results["observed-depth-ratio"],
+        )  # fmt: skip
+
+    return [*map(rebound, BETAS), *map(apart, BETAS)]
 
 
 def deeper_craters(results: Results) -> list[Figure]:
     """Section 4: smaller particles "produce deeper craters in relation to their diameters"."""
 
-    def ratio(size: str, power: str) -> float:
-        velocity = stream_velocity(results, "velocity-521", size, power)
+    def ratio(size: str, law: Law) -> float:
+        velocity = velocity_in_stream(results, "velocity-521", size, law)
         return exact_ratio(case(results, 5, velocity=velocity))
 
-    return [
-        quantified(
-            f"exact X/R of the {which} particle of the 521-m/s data, velocity by {law}, beta = 5",
-            "1", ratio, size, power,
+    def crater(which: str, size: str, law: Law) -> Figure:
+        means = (
+            f"exact X/R of the {which} particle of the {results.text('velocity-521')}-m/s data, "
+            f"velocity by {law}, {of_beta(results, 5)}"
         )
-        for (which, size), (law, power) in product(EXTREMES, LAWS)
-    ]  # fmt: skip
+        return quantified(means, "1", lambda: ratio(size, law))
+
+    return [crater(which, size, law) for which, size in EXTREMES for law in Law]
 
 
 def larger_adhere(results: Results) -> list[Figure]:
     """Section 4: in a faster stream "larger particles will have sufficient velocity to adhere"."""
 
-    def diameter(stream: str, power: str) -> float:
+    def diameter(stream: str, law: Law) -> float:
         faster = results[stream] / results["velocity-521"]
-        size: float = results["mean-diameter"] * faster ** (1 / by_diameter(results, power))
+        size: float = results["mean-diameter"] * faster ** float(1 / diameter_power(results, law))
         return size * 1e6
 
-    streams = ("velocity-403", "velocity-606")
-    return [
-        quantified(
-            f"largest particle that flies at 521 m/s in the stream of {results.text(stream)} m/s, "
-            f"by {law}",
-            "um", diameter, stream, power,
+    def largest(stream: str, law: Law) -> Figure:
+        means = (
+            f"largest particle that flies at {results.text('velocity-521')} m/s in the stream of "
+            f"{results.text(stream)} m/s, by {law}"
         )
-        for stream, (law, power) in product(streams, LAWS)
-    ]  # fmt: skip
+        return quantified(means, "um", lambda: diameter(stream, law))
+
+    return [largest(stream, law) for stream in ("velocity-403", "velocity-606") for law in Law]
 
 
 def slower_incipient(results: Results) -> list[Figure]:
     """Section 4: in fast streams "the slower particles" are those that just stick."""
-    means = "share of the stream of {} m/s slower than 521 m/s, 50 m/s taken as {} deviation"
-    streams = ("velocity-606", "velocity-704")
-    return [
-        quantified(
-            means.format(results.text(stream), kind), "percent",
-            percent_of_stream, results, "velocity-521", stream, deviation,
+
+    def share(stream: str, kind: str, deviation: float) -> Figure:
+        means = (
+            f"share of the stream of {results.text(stream)} m/s slower than "
+            f"{results.text('velocity-521')} m/s, {results.text('velocity-deviation')} m/s taken "
+            f"as {kind} deviation"
         )
-        for stream, (kind, deviation) in product(streams, DEVIATIONS)
-    ]  # fmt: skip
+        return quantified(
+            means, "percent", lambda: percent_of_stream(results, "velocity-521", stream, deviation)
+        )
+
+    streams = ("velocity-606", "velocity-704")
+    return [share(stream, kind, factor) for stream in streams for kind, factor in DEVIATIONS]
 
 
 def size_effect(results: Results) -> list[Figure]:
     """Section 4: "the value of X/R for different size particles was the same"."""
+    beta = of_beta(results, 5)
 
-    def in_sheet(size: str) -> float:
+    def ratio(size: str) -> float:
         return sheet.run(case(results, 5, radius=results[size] / 2)).normalized_depth
 
-    def exact() -> float:
-        return exact_ratio(case(results, 5))
+    def in_sheet(size: str) -> Figure:
+        means = f"X/R of the sheet, {beta}, particles of {results.text(size)} um"
+        return quantified(means, "1", lambda: ratio(size))
 
-    sizes = ("particle-size-least", "mean-diameter", "particle-size-greatest")
-    means = "X/R of the sheet, beta = 5, particles of {} um"
-    any_size = "exact X/R, beta = 5, for every size: R cancels from Eqs. 12 and 13"
-    shown = [quantified(means.format(results.text(size)), "1", in_sheet, size) for size in sizes]
-    return [*shown, quantified(any_size, "1", exact)]
+    any_size = f"exact X/R, {beta}, for every size: R cancels from Eqs. 12 and 13"
+    return [
+        in_sheet("particle-size-least"),
+        in_sheet("mean-diameter"),
+        in_sheet("particle-size-greatest"),
+        quantified(any_size, "1", lambda: exact_ratio(case(results, 5))),
+    ]
 
 
 def velocity_effect(results: Results) -> list[Figure]:
     """Section 4: the "effect of particle velocity on X/R is more pronounced"."""
-    ends = ("figure-5-velocity-least", "figure-5-velocity-greatest")
+    least, greatest = "figure-5-velocity-least", "figure-5-velocity-greatest"
 
     def ratio(velocity: str) -> float:
         return exact_ratio(case(results, 5, velocity=results[velocity]))
 
-    def rise() -> float:
-        return percent_more(ratio(ends[1]), ratio(ends[0]))
+    def at_velocity(velocity: str) -> Figure:
+        means = f"exact X/R at {results.text(velocity)} m/s, {of_beta(results, 5)}"
+        return quantified(means, "1", lambda: ratio(velocity))
 
-    means = "exact X/R at {} m/s, beta = 5"
-    shown = [quantified(means.format(results.text(end)), "1", ratio, end) for end in ends]
-    return [quantified("rise of the exact X/R from 400 to 500 m/s", "percent", rise), *shown]
+    return [
+        quantified(
+            f"rise of the exact X/R from {results.text(least)} to {results.text(greatest)} m/s",
+            "percent", lambda: percent_more(ratio(greatest), ratio(least)),
+        ),
+        at_velocity(least),
+        at_velocity(greatest),
+    ]  # fmt: skip
 
 
 def too_few(results: Results) -> list[Figure]:
     """Section 4: particles of 450 m/s may have been "too few in number to be observed"."""
-    means = "share faster than 450 m/s about {} m/s, 50 m/s taken as {} deviation"
-    averages = ("stream-velocity-400", "velocity-403")
-    return [
-        quantified(
-            means.format(results.text(average), kind), "percent",
-            percent_of_stream, results, average, "stream-velocity-450", deviation,
+    fast = "stream-velocity-450"
+
+    def share(average: str, kind: str, deviation: float) -> Figure:
+        means = (
+            f"share faster than {results.text(fast)} m/s about {results.text(average)} m/s, "
+            f"{results.text('velocity-deviation')} m/s taken as {kind} deviation"
         )
-        for average, (kind, deviation) in product(averages, DEVIATIONS)
-    ]  # fmt: skip
+        return quantified(
+            means, "percent", lambda: percent_of_stream(results, average, fast, deviation)
+        )
+
+    averages = ("stream-velocity-400", "velocity-403")
+    return [share(average, kind, factor) for average in averages for kind, factor in DEVIATIONS]
 
 
 def faster_only(results: Results) -> list[Figure]:
     """Section 4: at 521 m/s "only faster-than-average particles were adhering"."""
+    average = results.exact("velocity-521")
 
-    def ratio(deviations: int) -> float:
-        velocity = results["velocity-521"] + deviations * results["velocity-deviation"]
-        return exact_ratio(case(results, 5, velocity=velocity))
+    def faster(kind: str, deviation: float) -> Figure:
+        means = (
+            f"share faster by {results.text('velocity-deviation')} m/s or more, taken as {kind} "
+            "deviation"
+        )
+        return quantified(means, "percent", lambda: percent_beyond(deviation))
+
+    def ratio(velocity: Fraction) -> Figure:
+        return quantified(
+            f"exact X/R at {decimal_text(velocity)} m/s, {of_beta(results, 5)}", "1",
+            lambda: exact_ratio(case(results, 5, velocity=float(velocity))),
+        )  # fmt: skip
 
     return [
         quantified(
-            "share of the stream that is faster than its average", "percent", percent_beyond, 0
+            "share of the stream that is faster than its average", "percent",
+            lambda: percent_beyond(0),
         ),
-        *(
-            quantified(
-                f"share faster by 50 m/s or more, taken as {kind} deviation",
-                "percent", percent_beyond, deviations,
-            )
-            for kind, deviations in DEVIATIONS
-        ),
-        quantified("exact X/R at 521 m/s, beta = 5", "1", ratio, 0),
-        quantified("exact X/R at 571 m/s, beta = 5", "1", ratio, 1),
+        *(faster(kind, deviation) for kind, deviation in DEVIATIONS),
+        ratio(average),
+        ratio(average + results.exact("velocity-deviation")),
     ]  # fmt: skip
 
 
@@ -627,11 +679,17 @@ def velocity_distribution(results: Results) -> list[Figure]:
         return (results["velocity-521"] - needed()) / results["velocity-deviation"]
 
     return [
-        quantified("velocity at which the exact X/R is 0.3, beta = 5", "m/s", needed),
         quantified(
-            "its distance from the average of 521 m/s in stated deviations", "1", deviations
+            f"velocity at which the exact X/R is {results.text('observed-ratio')}, "
+            f"{of_beta(results, 5)}",
+            "m/s", needed,
         ),
-    ]
+        quantified(
+            f"its distance from the average of {results.text('velocity-521')} m/s in stated "
+            "deviations",
+            "1", deviations,
+        ),
+    ]  # fmt: skip
 
 
 def rising_resistance(results: Results) -> list[Figure]:
@@ -642,8 +700,8 @@ def rising_resistance(results: Results) -> list[Figure]:
         return exact_ratio(case(results, 5, resistance=times * impact.target_resistance))
 
     return [
-        quantified("exact X/R, beta = 5", "1", ratio, 1),
-        quantified("exact X/R at twice that resistance", "1", ratio, 2),
+        quantified(f"exact X/R, {of_beta(results, 5)}", "1", lambda: ratio(1)),
+        quantified("exact X/R at twice that resistance", "1", lambda: ratio(2)),
     ]
 
 

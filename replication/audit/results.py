@@ -3,15 +3,18 @@
 from fractions import Fraction
 from functools import cache, partial
 
-from reference.ledger import Ledger, claims_of_case
+from reference.ledger import READ_AS_PRINTED, Ledger, claims_of_case
 from reference.printed import decimal_text
 from reference.units import to_si
 from replication.audit.assessment import Reading, Verdict
 from replication.audit.explain import Explainer
+from replication.audit.inference import DENSITY
 from replication.audit.slips import slips_tried
 from replication.audit.verdict import Judge
 from replication.models import depth
+from replication.models.estimates import constant_pressure_depth
 from replication.models.impact import Impact
+from replication.text import number
 
 DERIVED = "derived from Eqs. 14 and 15"
 """The name of the reading of Eq. 16 that does not take it as printed."""
@@ -52,7 +55,7 @@ class Results:
         """Return the unit of a claim's last printed digit, in SI."""
         return self.ledger.claims[claim].number.quantum * self.ledger.claims[claim].si
 
-    def computed(self, claim: str, reading: str = "") -> float:
+    def computed(self, claim: str, reading: str = READ_AS_PRINTED) -> float:
         """Return what the models compute for a claim by one of its readings, in SI."""
         return self.reading(claim, reading).computed * float(self.ledger.claims[claim].si)
 
@@ -68,7 +71,7 @@ class Results:
         computed = (c.id for c in claims if c.is_computed and c.id.startswith(prefix))
         return {self.verdict(name) for name in computed}
 
-    def reading(self, claim: str, name: str = "") -> Reading:
+    def reading(self, claim: str, name: str = READ_AS_PRINTED) -> Reading:
         """Return one reading of a claim. Raises ArithmeticError if it has no value."""
         for reading in self.judge.assess(self.ledger.claims[claim]).readings:
             if reading.name == name:
@@ -84,6 +87,37 @@ def case(results: Results, beta: int, /, **changed: float) -> Impact:
     return Impact(**{**inputs, **changed})
 
 
+def of_beta(results: Results, beta: int) -> str:
+    """Return the beta of one of the report's cases in words, as the report prints it.
+
+    >>> from reference.ledger import load
+    >>> of_beta(Results(load()), 5)
+    'beta = 5'
+    """
+    return f"beta = {results.text(f'depth-beta-{beta}-beta')}"
+
+
+def density_taken(results: Results) -> str:
+    """Return the target density with which the audit computes, in words.
+
+    >>> from reference.ledger import load
+    >>> density_taken(Results(load()))
+    '7850 kg/m^3'
+    """
+    return f"{number(results.exact(DENSITY))} kg/m^3"
+
+
 def exact_ratio(impact: Impact) -> float:
     """Return the exact final X/R [1] of the model (Eqs. 12-13)."""
     return depth.final_depth(**impact.motion) / impact.radius
+
+
+def constant_pressure_ratio(impact: Impact) -> float:
+    """Return the final X/R [1] at the constant pressure R_t: Eq. 13 without the target's inertia.
+
+    >>> from reference.ledger import load
+    >>> f"{constant_pressure_ratio(case(Results(load()), 5)):.3f}"
+    '0.752'
+    """
+    density, resistance = impact.particle_density, impact.target_resistance
+    return constant_pressure_depth(impact.velocity, 1.0, density, resistance)

@@ -19,11 +19,13 @@ suggestive, and never a proof.
 """
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
 from functools import partial
 from itertools import combinations
 from math import inf, log, log10, sqrt
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from reference.ledger import Claim, Ledger
 from replication.audit.inference import DENSITY
@@ -32,8 +34,7 @@ from replication.audit.verdict import Judge
 from replication.text import number, powers_of_ten
 
 
-@dataclass(frozen=True)
-class Eq16Inputs:
+class Eq16Inputs(Struct, frozen=True):
     """The inputs of Eq. 16: L/D, k_1 and k_t [1], densities [kg/m^3], V [m/s] and R_t [Pa]."""
 
     L_D: float
@@ -45,9 +46,139 @@ class Eq16Inputs:
     R_t: float
 
 
-@dataclass(frozen=True)
-class Slip:
-    """A slip in one part of Eq. 16, in words and as the function that computes the part with it."""
+Pair = tuple[float, float]
+"""Two terms that are summed, or a numerator and its denominator."""
+
+PutIn = Callable[[Eq16Inputs], Eq16Inputs]
+"""What becomes of the numbers that are put in."""
+
+Part = Callable[[Eq16Inputs], float]
+"""A part of Eq. 16 that is computed from the numbers put in."""
+
+Sum = Callable[[float, float], float]
+"""What joins the two terms in brackets."""
+
+
+# The parts of Eq. 16 as printed
+
+
+def as_they_are(x: Eq16Inputs) -> Eq16Inputs:
+    return x
+
+
+def length_over_diameter(x: Eq16Inputs) -> float:
+    return x.L_D
+
+
+def rho_p_over_rho_t(x: Eq16Inputs) -> float:
+    return x.rho_p / x.rho_t
+
+
+def k_1_itself(x: Eq16Inputs) -> float:
+    return x.k_1
+
+
+def k_t_itself(x: Eq16Inputs) -> float:
+    return x.k_t
+
+
+def ratio_on_length(length: float, densities: float, k_1: float) -> Pair:
+    return length * densities, k_1
+
+
+def summed(first: float, second: float) -> float:
+    return first + second
+
+
+def twice(k_t: float) -> float:
+    return 2 * k_t
+
+
+def density_of_target(x: Eq16Inputs) -> float:
+    return x.rho_t
+
+
+def velocity_squared(x: Eq16Inputs) -> float:
+    return x.V * x.V
+
+
+def drag_over_resistance(drag: float, resistance: float) -> Pair:
+    return drag, resistance
+
+
+def one_plus(top: float, bottom: float) -> float:
+    return 1 + top / bottom
+
+
+def natural_logarithm(value: float) -> float:
+    return log(value)
+
+
+def sum_over_divisor(add: Sum, terms: Pair, divisor: float, logarithm: float) -> float:
+    return add(*terms) / divisor * logarithm
+
+
+def as_it_is(ratio: float) -> float:
+    return ratio
+
+
+class Eq16(Struct, frozen=True):
+    """Eq. 16 as it may be typed: a function for each thing that is typed once.
+
+    Without a slip it is as printed: X/R = ((L/D rho_p/rho_t + k_1)/2kt) ln(1 + k_t rho_t V^2/R_t).
+    """
+
+    # the numbers that are put in
+    velocity: PutIn = as_they_are
+    resistance: PutIn = as_they_are
+    length: PutIn = as_they_are
+    parameters: PutIn = as_they_are
+    densities: PutIn = as_they_are
+    # the sum in brackets, L/D rho_p/rho_t + k_1: its two terms, and the sign between them
+    length_ratio: Part = length_over_diameter
+    density_ratio: Part = rho_p_over_rho_t
+    k_1: Part = k_1_itself
+    terms: Callable[[float, float, float], Pair] = ratio_on_length
+    sign: Sum = summed
+    # what divides the sum, 2 k_t
+    k_t_below: Part = k_t_itself
+    divisor: Callable[[float], float] = twice
+    # the logarithm, ln(1 + k_t rho_t V^2/R_t)
+    k_t_above: Part = k_t_itself
+    density_above: Part = density_of_target
+    power: Part = velocity_squared
+    fraction: Callable[[float, float], Pair] = drag_over_resistance
+    argument: Callable[[float, float], float] = one_plus
+    logarithm: Callable[[float], float] = natural_logarithm
+    # what joins the three, and X/R for X/D
+    joined: Callable[[Sum, Pair, float, float], float] = sum_over_divisor
+    scale: Callable[[float], float] = as_it_is
+
+    def depth(self, x: Eq16Inputs) -> float:
+        """Return X/R [1], without its sign.
+
+        Raises ValueError or ArithmeticError where it has no value.
+
+        >>> x = Eq16Inputs(2 / 3, 8900.0, 7850.0, k_1=0.557, k_t=1.046, V=500.0, R_t=9.13e9)
+        >>> f"{Eq16().depth(x):.3f}"
+        '0.127'
+        """
+        x = self.densities(self.parameters(self.length(self.resistance(self.velocity(x)))))
+        terms = self.terms(self.length_ratio(x), self.density_ratio(x), self.k_1(x))
+        divisor = self.divisor(self.k_t_below(x))
+        drag = self.k_t_above(x) * self.density_above(x) * self.power(x)
+        logarithm = self.logarithm(self.argument(*self.fraction(drag, x.R_t)))
+        return abs(self.scale(self.joined(self.sign, terms, divisor, logarithm)))
+
+
+# The slips
+
+
+class Slip(Struct, frozen=True):
+    """A slip in one part of Eq. 16, in words and as the function that is typed for the part.
+
+    The part is the name of a field of `Eq16`.
+    """
 
     part: str
     says: str
@@ -59,28 +190,20 @@ def slip(part: str, says: str) -> Callable[[Callable[..., Any]], Slip]:
     return lambda function: Slip(part, says, function)
 
 
-Pair = tuple[float, float]
-"""Two terms that are summed, or a numerator and its denominator."""
-
-
 # The density ratio, as printed: rho_p/rho_t
 
 
-def density_ratio(x: Eq16Inputs) -> float:
-    return x.rho_p / x.rho_t
-
-
-@slip("density ratio", "the density ratio upside down")
+@slip("density_ratio", "the density ratio upside down")
 def density_ratio_inverted(x: Eq16Inputs) -> float:
     return x.rho_t / x.rho_p
 
 
-@slip("density ratio", "the square root of the density ratio, as for long rods")
+@slip("density_ratio", "the square root of the density ratio, as for long rods")
 def density_ratio_rooted(x: Eq16Inputs) -> float:
     return sqrt(x.rho_p / x.rho_t)
 
 
-@slip("density ratio", "no density ratio")
+@slip("density_ratio", "no density ratio")
 def density_ratio_left_out(_: Eq16Inputs) -> float:
     return 1.0
 
@@ -88,35 +211,27 @@ def density_ratio_left_out(_: Eq16Inputs) -> float:
 # L/D
 
 
-def length_ratio(x: Eq16Inputs) -> float:
-    return x.L_D
-
-
-@slip("L/D", "no L/D")
+@slip("length_ratio", "no L/D")
 def length_left_out(_: Eq16Inputs) -> float:
     return 1.0
 
 
-@slip("L/D", "L/R for L/D")
+@slip("length_ratio", "L/R for L/D")
 def length_over_radius(x: Eq16Inputs) -> float:
     return 2 * x.L_D
 
 
-@slip("L/D", "half of L for L")
+@slip("length_ratio", "half of L for L")
 def half_length(x: Eq16Inputs) -> float:
     return x.L_D / 2
 
 
-@slip("L/D", "D/L for L/D")
+@slip("length_ratio", "D/L for L/D")
 def length_ratio_inverted(x: Eq16Inputs) -> float:
     return 1 / x.L_D
 
 
 # k_1
-
-
-def k_1_of(x: Eq16Inputs) -> float:
-    return x.k_1
 
 
 @slip("k_1", "no k_1")
@@ -142,10 +257,6 @@ def k_t_for_k_1(x: Eq16Inputs) -> float:
 # What the density ratio multiplies: L/D
 
 
-def ratio_on_length(length: float, densities: float, k_1: float) -> Pair:
-    return length * densities, k_1
-
-
 @slip("terms", "the density ratio on k_1 in place of L/D")
 def density_ratio_on_k_1(length: float, densities: float, k_1: float) -> Pair:
     return length, k_1 * densities
@@ -157,10 +268,6 @@ def density_ratio_on_both(length: float, densities: float, k_1: float) -> Pair:
 
 
 # The sign between the two terms: +
-
-
-def summed(first: float, second: float) -> float:
-    return first + second
 
 
 @slip("sign", "only k_1")
@@ -181,32 +288,24 @@ def k_1_multiplied(first: float, second: float) -> float:
 # The divisor, as printed: 2 k_t
 
 
-def k_t_of_divisor(x: Eq16Inputs) -> float:
-    return x.k_t
-
-
-@slip("k_t below", "no k_t in the divisor")
+@slip("k_t_below", "no k_t in the divisor")
 def k_t_left_out(_: Eq16Inputs) -> float:
     return 1.0
 
 
-@slip("k_t below", "k_1 for k_t in the divisor")
+@slip("k_t_below", "k_1 for k_t in the divisor")
 def k_1_for_k_t(x: Eq16Inputs) -> float:
     return x.k_1
 
 
-@slip("k_t below", "1/2 for k_t in the divisor, as in Eq. 5")
+@slip("k_t_below", "1/2 for k_t in the divisor, as in Eq. 5")
 def half_for_k_t(_: Eq16Inputs) -> float:
     return 0.5
 
 
-@slip("k_t below", "k_t squared in the divisor")
+@slip("k_t_below", "k_t squared in the divisor")
 def k_t_squared(x: Eq16Inputs) -> float:
     return x.k_t * x.k_t
-
-
-def divisor(k_t: float) -> float:
-    return 2 * k_t
 
 
 @slip("divisor", "/2*k_t typed without brackets, which multiplies by k_t")
@@ -217,55 +316,39 @@ def multiplied_by_k_t(k_t: float) -> float:
 # The drag over the resistance, as printed: k_t rho_t V^2/R_t
 
 
-def drag_factor(x: Eq16Inputs) -> float:
-    return x.k_t
-
-
-@slip("k_t above", "no k_t in the logarithm")
+@slip("k_t_above", "no k_t in the logarithm")
 def k_t_left_out_of_drag(_: Eq16Inputs) -> float:
     return 1.0
 
 
-@slip("k_t above", "1/2 for k_t in the logarithm, as in Eq. 5")
+@slip("k_t_above", "1/2 for k_t in the logarithm, as in Eq. 5")
 def half_for_k_t_in_drag(_: Eq16Inputs) -> float:
     return 0.5
 
 
-@slip("k_t above", "k_1 for k_t in the logarithm")
+@slip("k_t_above", "k_1 for k_t in the logarithm")
 def k_1_in_drag(x: Eq16Inputs) -> float:
     return x.k_1
 
 
-@slip("k_t above", "k_t/2 in the logarithm: the 1/2 of Eq. 5 and k_t")
+@slip("k_t_above", "k_t/2 in the logarithm: the 1/2 of Eq. 5 and k_t")
 def half_k_t_in_drag(x: Eq16Inputs) -> float:
     return x.k_t / 2
 
 
-@slip("k_t above", "2 k_t in the logarithm, as in the divisor")
+@slip("k_t_above", "2 k_t in the logarithm, as in the divisor")
 def twice_k_t_in_drag(x: Eq16Inputs) -> float:
     return 2 * x.k_t
 
 
-def drag_density(x: Eq16Inputs) -> float:
-    return x.rho_t
-
-
-@slip("density above", "the particle's density in the logarithm")
+@slip("density_above", "the particle's density in the logarithm")
 def rho_p_in_drag(x: Eq16Inputs) -> float:
     return x.rho_p
-
-
-def velocity_squared(x: Eq16Inputs) -> float:
-    return x.V * x.V
 
 
 @slip("power", "V not squared")
 def velocity_not_squared(x: Eq16Inputs) -> float:
     return x.V
-
-
-def drag_over_resistance(drag: float, resistance: float) -> Pair:
-    return drag, resistance
 
 
 @slip("fraction", "the drag upside down: R_t/(k_t rho_t V^2)")
@@ -274,10 +357,6 @@ def drag_inverted(drag: float, resistance: float) -> Pair:
 
 
 # The logarithm, as printed: ln(1 + drag over resistance)
-
-
-def argument(top: float, bottom: float) -> float:
-    return 1 + top / bottom
 
 
 @slip("argument", "no 1 in the logarithm")
@@ -295,10 +374,6 @@ def bracket_too_early(top: float, bottom: float) -> float:
     return (1 + top) / bottom
 
 
-def logarithm(value: float) -> float:
-    return log(value)
-
-
 @slip("logarithm", "the logarithm to base 10: LOG for LN")
 def base_10(value: float) -> float:
     return log10(value)
@@ -311,30 +386,20 @@ def no_logarithm(value: float) -> float:
 
 # What joins them, as printed: (sum/divisor) logarithm; and X/R for X/D
 
-Sum = Callable[[float, float], float]
-
-
-def joined(add: Sum, terms: Pair, below: float, log_: float) -> float:
-    return add(*terms) / below * log_
-
 
 @slip("joined", "no brackets around the sum: only k_1 is divided, and multiplied by the logarithm")
-def sum_without_brackets(add: Sum, terms: Pair, below: float, log_: float) -> float:
-    return add(terms[0], terms[1] / below * log_)
+def sum_without_brackets(add: Sum, terms: Pair, divisor: float, logarithm: float) -> float:
+    return add(terms[0], terms[1] / divisor * logarithm)
 
 
 @slip("joined", "the logarithm in the divisor")
-def logarithm_below(add: Sum, terms: Pair, below: float, log_: float) -> float:
-    return add(*terms) / (below * log_)
+def logarithm_below(add: Sum, terms: Pair, divisor: float, logarithm: float) -> float:
+    return add(*terms) / (divisor * logarithm)
 
 
 @slip("joined", "no divisor")
-def divisor_left_out(add: Sum, terms: Pair, _: float, log_: float) -> float:
-    return add(*terms) * log_
-
-
-def unscaled(ratio: float) -> float:
-    return ratio
+def divisor_left_out(add: Sum, terms: Pair, _: float, logarithm: float) -> float:
+    return add(*terms) * logarithm
 
 
 @slip("scale", "X/R is twice X/D")
@@ -353,10 +418,6 @@ def doubled_twice(ratio: float) -> float:
 
 
 # The numbers put in
-
-
-def as_they_are(x: Eq16Inputs) -> Eq16Inputs:
-    return x
 
 
 @slip("parameters", "k_1 and k_t exchanged")
@@ -441,27 +502,9 @@ def family(ledger: Ledger, x: Eq16Inputs) -> list[Member]:
     return [(), *((slip,) for slip in slips), *pairs, *doubled_too]
 
 
-def depth_with_slips(x: Eq16Inputs, member: Member) -> float:
-    """Return X/R [1] by Eq. 16 with these slips, without its sign.
-
-    Raises ValueError or ArithmeticError where it has no value.
-    """
-    with_slip = {slip.part: slip.function for slip in member}
-
-    def of(part: str, as_printed: Callable[..., Any]) -> Callable[..., Any]:
-        return with_slip.get(part, as_printed)
-
-    for part in ("velocity", "resistance", "length", "parameters", "densities"):
-        x = of(part, as_they_are)(x)
-    length, densities = of("L/D", length_ratio)(x), of("density ratio", density_ratio)(x)
-    terms = of("terms", ratio_on_length)(length, densities, of("k_1", k_1_of)(x))
-    below = of("divisor", divisor)(of("k_t below", k_t_of_divisor)(x))
-    drag = of("k_t above", drag_factor)(x) * of("density above", drag_density)(x)
-    drag *= of("power", velocity_squared)(x)
-    fraction = of("fraction", drag_over_resistance)(drag, x.R_t)
-    log_ = of("logarithm", logarithm)(of("argument", argument)(*fraction))
-    value = of("joined", joined)(of("sign", summed), terms, below, log_)
-    return abs(float(of("scale", unscaled)(value)))
+def with_slips(member: Member) -> Eq16:
+    """Return Eq. 16 with these slips. Raises TypeError for a slip in a part that it has not."""
+    return replace(Eq16(), **{slip.part: slip.function for slip in member})
 
 
 NEAR = 1.5
@@ -481,14 +524,15 @@ def slips_tried(judge: Judge, claim: Claim) -> tuple[SlipsTried, list[FittingSli
     near, expected = 0, 0.0
     forms = family(judge.ledger, x)
     for member in forms:
-        value = _value(x, member)
+        typed = with_slips(member)
+        value = _value(typed, x)
         if value is None or (digits := f"{value:.12e}") in seen:
             continue
         seen.add(digits)
         if not middle / NEAR <= value <= middle * NEAR:
             continue
         near += 1
-        at_ends = [_value(replace(x, rho_t=density), member) for density in densities]
+        at_ends = [_value(typed, replace(x, rho_t=density)) for density in densities]
         values = [value, *(end for end in at_ends if end is not None)]
         width = log(high / low) + log(max(values) / min(values))
         expected += width / (2 * log(NEAR))
@@ -526,10 +570,10 @@ def _admitted(judge: Judge) -> list[float]:
     return [float(end) for end in (*inference.with_mass.ends, *inference.inner.ends)]
 
 
-def _value(x: Eq16Inputs, member: Member) -> float | None:
-    """Return X/R of a member; None if it has no value, or none above zero."""
+def _value(typed: Eq16, x: Eq16Inputs) -> float | None:
+    """Return X/R of Eq. 16 as typed; None if it has no value, or none above zero."""
     try:
-        value = depth_with_slips(x, member)
+        value = typed.depth(x)
     except (ArithmeticError, ValueError):
         return None
     return value if 0 < value < inf else None

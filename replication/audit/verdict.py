@@ -5,14 +5,15 @@ from fractions import Fraction
 from functools import cache, cached_property, partial
 from itertools import islice
 from math import prod
+from typing import Any
 
 from msgspec.structs import replace
 
 from reference.arithmetic import Floats, InexactError, Rationals, Reals
 from reference.derivations import Check, derive
-from reference.enclosure import Box, Ends, enclose, satisfying
+from reference.enclosure import Box, Ends, Satisfiability, enclose, satisfying
 from reference.equations import EquationError, dimension
-from reference.ledger import INFERRED, Claim, Convention, Ledger, Source, in_header
+from reference.ledger import INFERRED, READ_AS_PRINTED, Claim, Convention, Ledger, Source, in_header
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
 from reference.units import Dimension, DimensionError
@@ -21,6 +22,7 @@ from replication.audit.assessment import (
     Comparison,
     ConfirmedRange,
     EquationAssessment,
+    Ground,
     JudgedConstant,
     Judgement,
     Reading,
@@ -102,12 +104,12 @@ def _cross_checked(ledger: Ledger, name: str) -> Assessment:
     try:
         checked = CROSS_CHECKS[name].compare(ledger)
     except (ArithmeticError, ValueError) as error:  # an input has no meaning
-        return Assessment(Verdict.INCONSISTENT, no_value=str(error))
+        return Assessment(Verdict.INCONSISTENT, Ground.NO_VALUE, no_value=str(error))
     if checked.with_sources:
-        verdict = Verdict.AGREES if checked.agrees else Verdict.DIFFERS
+        verdict = Verdict.AGREES if checked.passes else Verdict.DIFFERS
     else:
-        verdict = Verdict.CONSISTENT if checked.agrees else Verdict.INCONSISTENT
-    return Assessment(verdict, compared=checked.says)
+        verdict = Verdict.CONSISTENT if checked.passes else Verdict.INCONSISTENT
+    return Assessment(verdict, Ground.COMPARISON, compared=checked.says)
 
 
 def is_contradicted(ledger: Ledger, name: str) -> bool:
@@ -170,26 +172,30 @@ class Judge:
         or the claims that are computed from the number, or what limits it.
         """
         if claim.kind == "remark":
-            return Assessment(Verdict.REMARK)
+            return Assessment(Verdict.REMARK, Ground.WORDS)
         if claim.restates:
             is_met = is_consistent(self.ledger, claim)
-            return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
+            verdict = Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT
+            return Assessment(verdict, Ground.REPETITION)
         if claim.is_computed:
             return self._recomputed(claim)
         constant = self.constant(claim)
         if constant is not None and constant.verdict != Verdict.NOT_CHECKABLE:
-            return Assessment(constant.verdict)
+            return Assessment(constant.verdict, Ground.EQUATION)
         if sources := self.sources(claim.id):
             is_printed = any(source.agrees for source in sources)
-            return Assessment(Verdict.AGREES if is_printed else Verdict.DIFFERS)
+            verdict = Verdict.AGREES if is_printed else Verdict.DIFFERS
+            return Assessment(verdict, Ground.SOURCES)
         if claim.shown_by:
             is_met = self.confirmed_range(claim) is not None
-            return Assessment(Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT)
+            verdict = Verdict.CONSISTENT if is_met else Verdict.INCONSISTENT
+            return Assessment(verdict, Ground.OTHERS)
         if claim.id in CROSS_CHECKS:
             return _cross_checked(self.ledger, claim.id)
         if claim.given == "definition":
-            return Assessment(Verdict.CONSISTENT)
-        return Assessment(Verdict.NOT_CHECKABLE)
+            return Assessment(Verdict.CONSISTENT, Ground.DEFINITION)
+        ground = Ground.NOTHING if constant is None else Ground.EQUATION
+        return Assessment(Verdict.NOT_CHECKABLE, ground)
 
     def constant(self, claim: Claim) -> JudgedConstant | None:
         """Return the judgement on a claim as a constant of its equation; None if it is none."""
@@ -204,18 +210,17 @@ class Judge:
         try:
             readings = tuple(self._reading(claim, name) for name in claim.computations)
         except ArithmeticError as error:
-            return Assessment(Verdict.NOT_REPRODUCED, no_value=str(error))
+            no_value = str(error) or "it divides by zero"  # of which `mpmath` says nothing
+            return Assessment(Verdict.NOT_REPRODUCED, Ground.NO_VALUE, no_value=no_value)
         verdict = readings[0].verdict
         told = standing(self.ledger, claim) if verdict is Verdict.REPRODUCED else None
-        return Assessment(verdict, readings, standing=told)
+        return Assessment(verdict, Ground.COMPUTATION, readings, standing=told)
 
     def _reading(self, claim: Claim, name: str) -> Reading:
-        function = self.ledger.function(claim, reading=name)
-        exact = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.entries})
-        reference = _REALS.number(exact) if isinstance(exact, Fraction) else exact
-        reference /= _REALS.number(claim.si)
-        computed = float(reference)
-        if not self.ledger.misprinted:  # the models know nothing of a misprint in an equation
+        reference = self._by_formulas(claim, name)
+        if self.ledger.misprinted:  # the models know nothing of a misprint in an equation
+            computed = float(reference)
+        else:
             computed = float(Fraction(self.modelled(claim, name)) / claim.si)
         digits = str(_REALS.context.nstr(reference, 25))
         judgements = islice(self._judgements(claim, name), None if self.every_convention else 1)
@@ -225,7 +230,19 @@ class Judge:
         )
         return Reading(name, claim.computations[name].summary, computed, digits, in_unit)
 
-    def modelled(self, claim: Claim, reading: str = "", scheme: Scheme = Scheme.PUBLISHED) -> float:
+    def _by_formulas(self, claim: Claim, reading: str) -> Any:
+        """Return the value by the ledger's formulas for the inputs as printed, in the claim's unit.
+
+        It is a number of `mpmath` with 50 digits.
+        """
+        function = self.ledger.function(claim, reading=reading)
+        value = function(_REALS, **{e: _REALS.number(self.value(e)) for e in claim.input_ids})
+        exact = _REALS.number(value) if isinstance(value, Fraction) else value
+        return exact / _REALS.number(claim.si)
+
+    def modelled(
+        self, claim: Claim, reading: str = READ_AS_PRINTED, scheme: Scheme = Scheme.PUBLISHED
+    ) -> float:
         """Return the models' value of a claim for its inputs as printed, in SI."""
         computation = claim.computations[reading]
         inputs = {key: float(prod(map(self.value, names))) for key, names in claim.inputs.items()}
@@ -251,7 +268,7 @@ class Judge:
                     yield Judgement(convention, Verdict.REPRODUCED, admitted)
                 elif target.encloses(*at_print):
                     # Only some admitted values give it, and the evidence does not tell which holds.
-                    witness = {entry: self.value(entry) for entry in claim.entries}
+                    witness = {entry: self.value(entry) for entry in claim.input_ids}
                     yield Judgement(convention, Verdict.WITHIN_ROUNDING, admitted, witness)
                 else:
                     yield Judgement(convention, Verdict.UNDECIDED, admitted)
@@ -269,7 +286,7 @@ class Judge:
             return Judgement(convention, Verdict.NOT_REPRODUCED, ends)
         budget = _BUDGET // 10 if claim.by_whole_sheet else _BUDGET
         constraints = [(function, target)]
-        witnessed = set(claim.entries)
+        witnessed = set(claim.input_ids)
         for entry in claim.inferred:
             inference = self.inference(entry, scheme=convention.scheme)
             constraints, box = inference.joint(convention, box, constraints)
@@ -277,7 +294,7 @@ class Judge:
                 witnessed.add(inference.entry.mass)
         outcome, point = satisfying(constraints, box, budget)
         witness = point and {entry: x for entry, x in point.items() if entry in witnessed}
-        against_evidence = bool(claim.inferred) and outcome is False
+        against_evidence = bool(claim.inferred) and outcome is Satisfiability.REFUTED
         return Judgement(convention, _VERDICTS[outcome], ends, witness, against_evidence)
 
     # Public sources, and choices that other claims confirm
@@ -319,7 +336,7 @@ class Judge:
     def is_confirmed(self, chosen: Claim, value: Fraction) -> bool:
         """Return whether all claims that confirm a number agree with this value (SI) of it."""
         ledger, changed = self.ledger, {**self.assumed, chosen.id: value}
-        return all(agrees(ledger, ledger.claims[name], changed) for name in chosen.shown_by)
+        return all(comes_out(ledger, ledger.claims[name], changed) for name in chosen.shown_by)
 
     # The inputs of a claim
 
@@ -334,11 +351,11 @@ class Judge:
 
     def inputs_as_printed(self, claim: Claim) -> Box:
         """Return the inputs of a claim as printed or, where they are inferred, as assumed."""
-        return {entry: (self.value(entry),) * 2 for entry in claim.entries}
+        return {entry: (self.value(entry),) * 2 for entry in claim.input_ids}
 
     def inputs_as_rounded(self, claim: Claim, convention: Convention) -> Box:
         """Return the ranges of a claim's inputs, each as `rounded` has it."""
-        return {entry: self.rounded(entry, convention).ends for entry in claim.entries}
+        return {entry: self.rounded(entry, convention).ends for entry in claim.input_ids}
 
     def rounded(self, entry: str, convention: Convention) -> Interval:
         """Return the values of an input (SI) that print like it, or that its evidence admits."""
@@ -368,8 +385,10 @@ class Judge:
 
 
 _VERDICTS = {
-    True: Verdict.WITHIN_ROUNDING, False: Verdict.NOT_REPRODUCED, None: Verdict.UNDECIDED,
-}  # fmt: skip
+    Satisfiability.SHOWN: Verdict.WITHIN_ROUNDING,
+    Satisfiability.REFUTED: Verdict.NOT_REPRODUCED,
+    Satisfiability.UNDECIDED: Verdict.UNDECIDED,
+}
 """The verdict by whether inputs that print like the report's can give the number."""
 
 _BUDGET = 100
@@ -408,11 +427,13 @@ Replacements = Mapping[str, Fraction]
 """Values of some entries (SI) in place of the printed ones."""
 
 
-def agrees(ledger: Ledger, claim: Claim, changed: Replacements, reading: str = "") -> bool:
-    """Return whether a claim agrees with its computation, in doubles, some entries changed."""
+def comes_out(
+    ledger: Ledger, claim: Claim, changed: Replacements, reading: str = READ_AS_PRINTED
+) -> bool:
+    """Return whether a claim is what its computation gives, in doubles, some entries changed."""
     if claim.restates:
         return is_consistent(ledger, claim)
-    target, values = claim.target(), {name: ledger.value(name) for name in claim.entries}
+    target, values = claim.target(), {name: ledger.value(name) for name in claim.input_ids}
     inputs = {name: float(changed.get(name, value)) for name, value in values.items()}
     try:
         value = Fraction(ledger.function(claim, reading=reading)(Floats(), **inputs))
@@ -426,7 +447,8 @@ def agrees(ledger: Ledger, claim: Claim, changed: Replacements, reading: str = "
 def disagreeing(ledger: Ledger, names: Iterable[str], changed: Replacements) -> set[str]:
     """Return which of the claims disagree with their computations, some entries changed."""
     claims = (ledger.claims[name] for name in names)
-    return {c.id for c in claims if c.computation is not None and not agrees(ledger, c, changed)}
+    computed = (claim for claim in claims if claim.computation is not None)
+    return {claim.id for claim in computed if not comes_out(ledger, claim, changed)}
 
 
 # Equations, and the constants in them

@@ -1,9 +1,10 @@
 """The sentences of the record: why an entry has its verdict, and what the verdict assumes."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
+from enum import StrEnum
 from fractions import Fraction
 
-from reference.ledger import Claim, Ledger
+from reference.ledger import Claim, Convention, Ledger
 from reference.printed import Interval, Rounding
 from reference.scheme import Scheme
 from reference.units import to_si
@@ -12,7 +13,7 @@ from replication.audit.assessment import (
     Comparison,
     ConfirmedRange,
     EquationAssessment,
-    JudgedConstant,
+    Ground,
     Judgement,
     Reading,
     Verdict,
@@ -22,26 +23,27 @@ from replication.text import between, number, quantity
 
 
 def explanation(judge: Judge, claim: Claim, assessed: Assessment) -> str:
-    """Explain the verdict on a claim by what it rests on."""
+    """Explain the verdict on a claim by the ground on which it was decided."""
     ledger = judge.ledger
-    if assessed.verdict is Verdict.REMARK:
-        return remark(ledger, claim)
-    if assessed.no_value:
-        return f"With the numbers as printed it cannot be computed: {assessed.no_value}."
-    if assessed.readings:
-        return recomputation(judge, claim, assessed.readings)
-    if (constant := judge.constant(claim)) is not None:
-        return constant_explanation(ledger, claim, constant)
-    if claim.restates:
-        return repetition(ledger, claim, assessed.verdict)
-    if comparisons := judge.sources(claim.id):
-        return sources(ledger, claim, comparisons)
-    if claim.shown_by:
-        return fitting(ledger, claim, judge.confirmed_range(claim))
-    if assessed.compared:
-        return assessed.compared
-    if assessed.verdict is Verdict.CONSISTENT:
-        return f"Nothing to compute: {claim.why}."
+    match assessed.ground:
+        case Ground.WORDS:
+            return remark(ledger, claim)
+        case Ground.REPETITION:
+            return repetition(ledger, claim, assessed.verdict)
+        case Ground.COMPUTATION:
+            return recomputation(judge, claim, assessed.readings)
+        case Ground.NO_VALUE:
+            return f"With the numbers as printed it cannot be computed: {assessed.no_value}."
+        case Ground.EQUATION:
+            return constant_explanation(judge, claim)
+        case Ground.SOURCES:
+            return sources(ledger, claim, judge.sources(claim.id))
+        case Ground.OTHERS:
+            return fitting(ledger, claim, judge.confirmed_range(claim))
+        case Ground.COMPARISON:
+            return assessed.compared
+        case Ground.DEFINITION:
+            return f"Nothing to compute: {claim.why}."
     return f"Nothing in the report decides it: {claim.why}."
 
 
@@ -75,7 +77,7 @@ def recomputation(judge: Judge, claim: Claim, readings: Sequence[Reading]) -> st
     for reading in others:
         value = quantity(number(reading.computed), claim.unit)
         proven, but = between(reading.judgements[0].ends, 6), _exceptions(claim, reading)
-        verdict = f"{reading.verdict}{f' ({but})' * bool(but)}"
+        verdict = f"{reading.verdict} ({but})" if but else f"{reading.verdict}"
         sentences.append(f"Read as {reading.name}: {value}, {verdict}; proven range {proven}.")
     return " ".join(filter(None, sentences))
 
@@ -135,65 +137,103 @@ def scope(claim: Claim, reading: Reading) -> str:
     return f"{sentence}."
 
 
+class ConventionDeparture(StrEnum):
+    """A way in which a convention departs from the usual one, in words."""
+
+    EVEN = "ties to even"
+    CUT = "cut digits"
+    CHOICES_ROUNDED = "rounded choices of the author"
+    HEADER_EXACT = "an exact header of Table A-1"
+    CENTERED = "the drag at the middle velocity"
+
+
+def departures(convention: Convention) -> tuple[ConventionDeparture, ...]:
+    """Return in what a convention departs from the usual one.
+
+    >>> [str(departure) for departure in departures(Convention(Rounding.CUT, header_exact=True))]
+    ['cut digits', 'an exact header of Table A-1']
+    """
+    departing = []
+    if convention.rounding is Rounding.EVEN:
+        departing.append(ConventionDeparture.EVEN)
+    if convention.rounding is Rounding.CUT:
+        departing.append(ConventionDeparture.CUT)
+    if not convention.choices_exact:
+        departing.append(ConventionDeparture.CHOICES_ROUNDED)
+    if convention.header_exact:
+        departing.append(ConventionDeparture.HEADER_EXACT)
+    if convention.scheme is Scheme.CENTERED:
+        departing.append(ConventionDeparture.CENTERED)
+    return tuple(departing)
+
+
 def _conditions_met(claim: Claim, reading: Reading) -> str:
     """Name the conventions under which the verdict holds; some may still fail together."""
     tried = [judgement.convention for judgement in reading.judgements]
     usual = [c for c in tried if (c.rounding, c.scheme) == (tried[0].rounding, tried[0].scheme)]
-    alone = {words for own in _unmet(reading).values() for words in own if len(words) == 1}
-    conditions = [_CUT_FAILS if (_CUT,) in alone else _EVERY_ROUNDING]
-    for key, _, unusual, only, both in _SETTINGS:
-        varied = claim.by_scheme if key == "scheme" else len({getattr(c, key) for c in usual}) > 1
-        if varied:
-            conditions.append(only if (unusual,) in alone else both)
+    failing = {ways[0] for unmet in _unmet(reading).values() for ways in unmet if len(ways) == 1}
+    conditions = [_roundings_met(failing)]
+    if len({convention.choices_exact for convention in usual}) > 1:
+        conditions.append(_choices_met(failing))
+    if len({convention.header_exact for convention in usual}) > 1:
+        conditions.append(_headers_met(failing))
+    if claim.by_scheme:
+        conditions.append(_schemes_met(failing))
     *first, last = conditions
     return f"{', '.join(first)} and {last}" if first else last
 
 
-def _unmet(reading: Reading) -> dict[str, list[tuple[str, ...]]]:
-    """Return the other verdicts, each with the sets of conditions that give it."""
-    unmet: dict[str, list[tuple[str, ...]]] = {}
+def _roundings_met(failing: Collection[ConventionDeparture]) -> str:
+    if ConventionDeparture.CUT in failing:
+        return "both ways of rounding to nearest"
+    return "three ways of rounding"
+
+
+def _choices_met(failing: Collection[ConventionDeparture]) -> str:
+    if ConventionDeparture.CHOICES_ROUNDED in failing:
+        return "the author's choices exact"
+    return "the author's choices exact or rounded"
+
+
+def _headers_met(failing: Collection[ConventionDeparture]) -> str:
+    if ConventionDeparture.HEADER_EXACT in failing:
+        return "the header of Table A-1 rounded"
+    return "the header of Table A-1 exact or rounded"
+
+
+def _schemes_met(failing: Collection[ConventionDeparture]) -> str:
+    if ConventionDeparture.CENTERED in failing:
+        return "the drag at the initial velocity"
+    return "both schemes"
+
+
+def _unmet(reading: Reading) -> dict[Verdict, list[tuple[ConventionDeparture, ...]]]:
+    """Return the other verdicts, each with the sets of departures that give it."""
+    unmet: dict[Verdict, list[tuple[ConventionDeparture, ...]]] = {}
     for judgement in reading.otherwise:
-        convention = judgement.convention
-        unusual = (words for key, value, words in _UNUSUAL if getattr(convention, key) == value)
-        unmet.setdefault(judgement.verdict, []).append(tuple(unusual))
-    # A condition that includes a weaker one adds nothing.
+        unmet.setdefault(judgement.verdict, []).append(departures(judgement.convention))
+    # A set that includes a smaller one adds nothing.
     return {
-        verdict: list(dict.fromkeys(c for c in own if not any(set(o) < set(c) for o in own)))
-        for verdict, own in unmet.items()
+        verdict: list(dict.fromkeys(w for w in sets if not any(set(v) < set(w) for v in sets)))
+        for verdict, sets in unmet.items()
     }
 
 
 def _exceptions(claim: Claim, reading: Reading) -> str:
     """Return the other verdicts and the conventions that give them; empty if there are none."""
+
+    def in_words(departure: ConventionDeparture) -> str:
+        if departure is ConventionDeparture.CUT and claim.inferred:
+            # The evidence for its inferred inputs is rounded to nearest under every convention.
+            return f"{departure} of this number alone"
+        return departure
+
     parts = []
-    for verdict, conditions in _unmet(reading).items():
-        under = ", or under ".join(map(" with ".join, conditions))
-        comma = "," * (len(conditions) > 1)
+    for verdict, sets in _unmet(reading).items():
+        under = ", or under ".join(" with ".join(map(in_words, ways)) for ways in sets)
+        comma = "," if len(sets) > 1 else ""
         parts.append(f'under {under}{comma} it becomes "{verdict}"')
-    # The evidence for its inferred inputs is rounded to nearest under every convention.
-    alone = f"{_CUT} of this number alone"
-    return "; ".join(parts).replace(_CUT, alone if claim.inferred else _CUT)
-
-
-_EVERY_ROUNDING, _CUT_FAILS = "three ways of rounding", "both ways of rounding to nearest"
-_CUT = "cut digits"
-
-_SETTINGS = (
-    ("choices_exact", False, "rounded choices of the author", "the author's choices exact",
-     "the author's choices exact or rounded"),
-    ("header_exact", True, "an exact header of Table A-1", "the header of Table A-1 rounded",
-     "the header of Table A-1 exact or rounded"),
-    ("scheme", Scheme.CENTERED, "the drag at the middle velocity",
-     "the drag at the initial velocity", "both schemes"),
-)  # fmt: skip
-"""The settings that concern inputs and sheet: key, unusual value; it, the usual one, and both."""
-
-_UNUSUAL = (
-    ("rounding", Rounding.EVEN, "ties to even"),
-    ("rounding", Rounding.CUT, _CUT),
-    *((key, value, words) for key, value, words, _, _ in _SETTINGS),
-)
-"""The settings of a convention that differ from the usual one, in words."""
+    return "; ".join(parts)
 
 
 def assumptions(judge: Judge, claim: Claim, computed: float | None) -> list[str]:
@@ -247,8 +287,9 @@ def sources(ledger: Ledger, claim: Claim, comparisons: Sequence[Comparison]) -> 
     )
     if not agreeing:
         values = [source.value for source in ledger.sources_of(claim.id)]
-        middle = " It lies between them." * (min(values) < claim.value < max(values))
-        return f"{origin(claim)} No public source at hand prints it: {others}.{middle}"
+        says = f"{origin(claim)} No public source at hand prints it: {others}."
+        lies_between = min(values) < claim.value < max(values)
+        return f"{says} It lies between them." if lies_between else says
     but = f", not with {others}" if others else ""
     return f"{origin(claim)} It agrees with {agreeing}{but}."
 
@@ -274,9 +315,10 @@ def equation_explanation(ledger: Ledger, assessed: EquationAssessment) -> str:
     return text
 
 
-def constant_explanation(ledger: Ledger, claim: Claim, constant: JudgedConstant) -> str:
+def constant_explanation(judge: Judge, claim: Claim) -> str:
     """Explain the verdict on a constant of an equation."""
-    equation = ledger.equations[claim.within or ""]
+    equation, constant = judge.ledger.equations[claim.within or ""], judge.constant(claim)
+    assert constant is not None
     passes = f"the equation follows from {equation.follows_from}"
     if equation.kind == "taken over":
         passes = "the equation has the right dimensions, limits and signs"

@@ -70,8 +70,9 @@ class Case:
     def columns(self, count: int) -> list[Any]:
         """The inputs of `count` cases, with velocities up to 10 % below and above this one's."""
         spread = 0.1 * (count > 1) * np.linspace(-1, 1, count)
-        velocity, *others = (np.full(count, value) for value in self.impact.motion.values())
-        return [velocity * (1 + spread), *others]
+        inputs = {name: np.full(count, value) for name, value in self.impact.motion.items()}
+        inputs["velocity"] *= 1 + spread
+        return list(inputs.values())
 
     def error(self, measure: Measure, answer: Any, stop: float = 0.0) -> float:
         """Return the largest relative error of depths [m], down to the velocity `stop` [m/s].

@@ -228,6 +228,12 @@ def check_text(record: JsonObject, width: int = NO_LIMIT) -> str:
     return fitted(_check_lines(record, width), width)
 
 
+def _told_aside(difference: JsonObject) -> str:
+    """What a difference that is no fault is, after its place if it has a single one."""
+    explanation = safe(difference["explanation"], 300)
+    return f"{whereabouts(difference)}: {explanation}" if difference["count"] == 1 else explanation
+
+
 def _check_lines(record: JsonObject, width: int) -> Iterator[str]:
     yield from (record["verdict"], safe(record["file"], 200))
     first, differences = record["first"], record["differences"]
@@ -242,10 +248,7 @@ def _check_lines(record: JsonObject, width: int) -> Iterator[str]:
     )
     for kind, title in aside.items():
         of_kind = [d for d in differences if d["kind"] == kind]
-        lines = [
-            wrapped(f"{whereabouts(d)}: " * (d["count"] == 1) + safe(d["explanation"], 300), "  ")
-            for d in of_kind[:_MOST]
-        ]
+        lines = [wrapped(_told_aside(d), "  ") for d in of_kind[:_MOST]]
         yield from _paragraph(title, lines, len(of_kind))
     tables = [line for taken in record["taken"] for line in _taken_lines(taken, width)]
     yield from _paragraph("What was taken for what", tables)

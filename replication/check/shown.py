@@ -109,11 +109,13 @@ def drawn(
         place = (name, *at)
         value, formula = content(place)
         is_number, kind = isinstance(value, float), kinds.get(at)
-        classes = ("right" * is_number, kind and f"marked {kind}", "origin" * (at in origins))
+        classes = ["right"] if is_number else []
+        classes += [f"marked {kind}"] if kind else []
+        classes += ["origin"] if at in origins else []
         return {
             "text": f"{value:.6g}" if is_number else safe("" if value is None else value, 40),
             "formula": safe(formula or "", 200),
-            "classes": " ".join(filter(None, classes)),
+            "classes": " ".join(classes),
             "number": origins.get(at),
             "id": anchor(place, sheets) if at in origins else "",
         }

@@ -1,6 +1,7 @@
 """Inputs that no cell holds and that rows of numbers give: those that are not the report's."""
 
 import math
+from collections.abc import Sequence
 
 from replication.check.examination import NO_FAULT, Examination
 from replication.check.six import Six, first_speed
@@ -10,6 +11,8 @@ from spreadsheets.foreign import Position
 
 _MOST_DIGITS = 10
 """So many digits are shown of a number that was solved."""
+_MORE_DIGITS = 6
+"""As two numbers that differ do so by more than `SAME`, so many digits more tell them apart."""
 _RATIOS = "the rows tell only the ratios of both densities and the resistance"
 
 
@@ -32,8 +35,8 @@ def tell_solved(exam: Examination) -> None:
         known = (*report_inputs()[role], *([OTHER_STEP] if role == "step" else []))
         if any(_agree(exam, entry.si, value, error) for value in known):
             continue
-        shown = with_si_unit(_as_known(entry.si, error), role)
-        printed = " or ".join(with_si_unit(value, role) for value in report_inputs()[role])
+        texts = [with_si_unit(value, role) for value in report_inputs()[role]]
+        shown, printed = _unlike(texts, entry.si, error, role), " or ".join(texts)
         exam.other_inputs.append(f"{title(role)} {shown}")
         text = f"by the rows {title(role)} is {shown}, in the report {printed}"
         exam.add("other input", [_shown_in(exam, role)], None, text, entry.si)
@@ -48,14 +51,30 @@ def _agree(exam: Examination, value: float, wanted: float, error: float) -> bool
     return abs(off) * math.log(10) <= max(SAME, error)
 
 
-def _as_known(value: float, error: float) -> float:
-    """A number with as many digits as its relative error leaves.
+def _unlike(texts: Sequence[str], value: float, error: float, role: str) -> str:
+    """An input as text, with as many digits as are known, or as tell it from these texts.
+
+    >>> _unlike(["500 m/s"], 449.98765, 1e-3, "velocity")
+    '450 m/s'
+    >>> _unlike(["500 m/s"], 500.004, 7e-6, "velocity")
+    '500.004 m/s'
+    """
+    text = ""
+    for more in range(_MORE_DIGITS + 1):
+        text = with_si_unit(_as_known(value, error, more), role, _MOST_DIGITS + more)
+        if text not in texts:
+            break
+    return text
+
+
+def _as_known(value: float, error: float, more: int = 0) -> float:
+    """A number with as many digits as its relative error leaves, and some more.
 
     >>> _as_known(1.0999999999999986e-05, 1e-9), _as_known(449.98765, 1e-3)
     (1.1e-05, 450.0)
     """
     digits = min(_MOST_DIGITS, max(2, math.floor(-math.log10(max(error, 1e-15)))))
-    return float(f"{value:.{digits - 1}e}")
+    return float(f"{value:.{digits + more - 1}e}")
 
 
 def _shown_in(exam: Examination, role: str) -> Position:

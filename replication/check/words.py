@@ -243,13 +243,13 @@ def title(role: str) -> str:
     return _WORDS["titles"].get(role) or f"the {role.replace('_', ' ')}"
 
 
-def with_si_unit(value: float, role: str) -> str:
-    """Return a value in SI units as text, with its unit.
+def with_si_unit(value: float, role: str, digits: int = 10) -> str:
+    """Return a value in SI units as text of so many digits, with its unit.
 
     >>> with_si_unit(11e-6, "radius"), with_si_unit(5.0, "beta")
     ('1.1e-05 m', '5')
     """
-    return with_unit(f"{value:.10g}", _MEASURES[role])
+    return with_unit(f"{value:.{digits}g}", _MEASURES[role])
 
 
 def unit_name(role: str, power: int) -> str:

@@ -5,7 +5,7 @@ import gc
 from functools import partial
 
 from replication.cli.options import add_json, add_quiet, path
-from replication.cli.output import coloured, may_emphasize, progress, put_json, width
+from replication.cli.output import may_emphasize, progress, put_json, width
 from replication.user_input import one_line
 
 HELP = "audit every number the report prints"
@@ -57,5 +57,5 @@ def run(options: argparse.Namespace) -> int:
         put_json(written["audit.json"].decode())
     elif not options.quiet:
         print(f"Written to {one_line(str(options.out))}/; start with audit.html", end="\n\n")
-        print(coloured(report.summary(record, width(), may_emphasize())))
+        print(report.summary(record, width(), may_emphasize()))
     return 1 if options.exit_code and record.counts.failing else 0

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from replication.cli.options import add_json, add_quiet, one_of
-from replication.cli.output import coloured, may_emphasize, put, width
+from replication.cli.output import may_emphasize, put, width
 from replication.text import columns, quantity, with_unit
 from replication.user_input import advice, quoted
 
@@ -42,10 +42,8 @@ def run(options: argparse.Namespace) -> int:
         wanted = _id_of_equation(wanted) or wanted
     if options.verdict and wanted in {*ledger.claims, *ledger.equations}:
         raise ValueError(f"--verdict selects from a list: leave it out to prove {wanted}")
-    if wanted in ledger.claims:
-        return _prove_claim(options, ledger)
-    if wanted in ledger.equations:
-        return _prove_equation(wanted, options, ledger)
+    if wanted in ledger.claims or wanted in ledger.equations:
+        return _prove(wanted, options, ledger)
     with_point = None if wanted is None else re.sub(r"(?<=\d),(?=\d)", ".", wanted)
     listed = [
         claim
@@ -116,35 +114,24 @@ def _record(claim: "Claim", verdict: "Verdict | None") -> dict[str, Any]:
     return record | ({"verdict": verdict} if verdict else {})
 
 
-def _prove_claim(options: argparse.Namespace, ledger: "Ledger") -> int:
+def _prove(name: str, options: argparse.Namespace, ledger: "Ledger") -> int:
+    """Print what the verdict on a claim or an equation rests on."""
+    from replication import report
     from replication.audit.audit import Audit
     from replication.audit.findings import findings_on
+    from replication.report import document
 
     audit = Audit(ledger)
-    claim = audit.claim(options.id)
-    if options.json:
-        from replication.report.document import claim_document
-
-        return put(options, claim_document(claim), str)
-    from replication.report import proof
-
-    on_it = findings_on(audit, options.id)
-    print(coloured(proof(claim, on_it, ledger, width(), may_emphasize())))
-    return 0
-
-
-def _prove_equation(name: str, options: argparse.Namespace, ledger: "Ledger") -> int:
-    from replication.audit.audit import Audit
-    from replication.audit.findings import findings_on
-
-    audit = Audit(ledger)
-    equation = audit.equation(name)
-    if options.json:
-        from replication.report.document import equation_document
-
-        return put(options, equation_document(equation), str)
-    from replication.report import equation_proof
-
-    on_it = findings_on(audit, name)
-    print(coloured(equation_proof(equation, on_it, ledger, width(), may_emphasize())))
+    settings = (audit.judge, width(), may_emphasize())
+    if name in ledger.claims:
+        claim = audit.claim(name)
+        if options.json:
+            return put(options, document.claim_document(claim), str)
+        text = report.proof(claim, findings_on(audit, name), *settings)
+    else:
+        equation = audit.equation(name)
+        if options.json:
+            return put(options, document.equation_document(equation), str)
+        text = report.equation_proof(equation, findings_on(audit, name), *settings)
+    print(text)
     return 0

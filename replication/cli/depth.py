@@ -20,7 +20,7 @@ from replication.cli.case import (
 from replication.cli.options import add_json, add_quiet, one_of
 from replication.cli.output import paragraph, put, width
 from replication.models.estimates import penetration_threshold
-from replication.models.impact import Impact, check_each, check_inputs
+from replication.models.impact import Impact, check_magnitudes, check_positive
 from replication.text import aligned, columns, number, with_unit
 from replication.user_input import place, read_number
 
@@ -78,8 +78,9 @@ def add_options(parser: argparse.ArgumentParser) -> None:
     for name, flag in OPTIONS.items():
         value = _shown(name, getattr(report.model, name))
         own.add_argument(
-            flag, metavar="X", help=f"{SYMBOLS[name]} ({value}, {report.sources[name]})"
-        )
+            flag, metavar="X", dest=f"own_{name}",
+            help=f"{SYMBOLS[name]} ({value}, {report.sources[name]})",
+        )  # fmt: skip
 
 
 def run(options: argparse.Namespace) -> int:
@@ -98,12 +99,14 @@ def run(options: argparse.Namespace) -> int:
             warnings += doubt("flow_stress", strength, "--particle-strength")
     if "resistance" in own:
         warnings += doubt("resistance", own["resistance"], OPTIONS["resistance"])
-    record: dict[str, Any] = {"inputs": inputs_of(case), "models": results}
-    if not options.models:
-        (record,) = results
-        if names == ["rigid"]:
-            record = record | {"inputs": inputs_of(case)}
-    record = record | {"penetration_threshold": threshold, "warnings": warnings}
+    answer: dict[str, Any]
+    if options.models:
+        answer = {"inputs": inputs_of(case), "models": results}
+    elif names == ["rigid"]:  # with beta and flow stress, as the case has them
+        answer = {**results[0], "inputs": inputs_of(case)}
+    else:
+        answer = results[0]
+    record = {**answer, "penetration_threshold": threshold, "warnings": warnings}
 
     def text() -> str:
         depths = _all(case, results) if options.models else _depth_in_words(case, results[0])
@@ -130,7 +133,7 @@ def _refuse_without_say(
 
 def _own_inputs(options: argparse.Namespace, names: Sequence[str]) -> dict[str, float]:
     """Return the inputs given that are not the case's; ValueError if no model has them."""
-    texts = {name: getattr(options, flag[2:].replace("-", "_")) for name, flag in OPTIONS.items()}
+    texts = {name: getattr(options, f"own_{name}") for name in OPTIONS}
     texts = {name: text for name, text in texts.items() if text is not None}
     if texts and not any(DEPTH_MODELS[name].own for name in names):
         raise ValueError(
@@ -147,8 +150,8 @@ def _read_input(flag: str, name: str, text: str, unit: str) -> float:
     """Read a number for an input, which no case has, that the models can compute with."""
     with place(flag):
         value = read_number(text, unit)
-        check_inputs({name: value})
-        check_each(**{name: value})
+        check_positive({name: value})
+        check_magnitudes(**{name: value})
         return value
 
 

@@ -121,7 +121,7 @@ def _check_units(option: str, texts: Sequence[str]) -> None:
     if plain and any(units):
         last = [unit for unit in units if unit][-1]
         meant = [text if typed_unit(text) else f"{text} {last}" for text in texts[:8]]
-        listed = ",".join(meant + ["..."] * (len(texts) > 8))
+        listed = ",".join([*meant, "..."] if len(texts) > len(meant) else meant)
         raise ValueError(
             f'{option}: {quoted(plain[0])} has no unit, and others have one: write "{listed}"'
         )

@@ -89,33 +89,9 @@ def paragraph(text: str, indent: str = "", hanging: str = "") -> str:
 
 
 def may_emphasize() -> bool:
-    """Return whether bold text may be printed: on a capable terminal, without NO_COLOR."""
+    """Return whether bold text and colours may be printed: on a terminal, without NO_COLOR."""
     is_capable = is_terminal() and os.environ.get("TERM") != "dumb"
     return is_capable and not os.environ.get("NO_COLOR")
-
-
-_GREEN, _YELLOW, _RED = "\x1b[32m", "\x1b[33m", "\x1b[31m"
-_COLOURS = {
-    "reproduced": _GREEN,
-    "consistent": _GREEN,
-    "agrees with public sources": _GREEN,
-    "reproduced within input rounding": _YELLOW,
-    "undecided": _YELLOW,
-    "differs from public sources": _YELLOW,
-    "not reproduced": _RED,
-    "inconsistent": _RED,
-}
-"""The verdicts that have a colour."""
-
-_VERDICT = re.compile(rf"(?m)(?<=  |: |\d )({'|'.join(_COLOURS)})$")
-"""A verdict that ends a line, after a colon, a count or the blanks between two columns."""
-
-
-def coloured(text: str) -> str:
-    """Colour each verdict that ends a line, if the terminal may be written to in colour."""
-    if not may_emphasize():
-        return text
-    return _VERDICT.sub(lambda match: f"{_COLOURS[match[0]]}{match[0]}\x1b[0m", text)
 
 
 def progress(options: argparse.Namespace, items: Any = None, **settings: Any) -> Any:

@@ -21,7 +21,8 @@ LevelJson = dict[str, Any]
 
 def exact_motion(impact: Impact) -> Trajectory:
     """Return the exact motion of a case to 50 digits, for its inputs as exact doubles."""
-    return Trajectory(*map(Fraction, impact.motion.values()), digits=50)
+    inputs = {name: Fraction(value) for name, value in impact.motion.items()}
+    return Trajectory(**inputs, digits=50)
 
 
 def split(sheet: Sheet) -> tuple[float, Budget]:

@@ -15,14 +15,14 @@ from replication.models.estimates import (
     frank_zook_depth,
     frank_zook_depth_as_printed,
 )
-from replication.models.impact import check_each, check_inputs
+from replication.models.impact import check_magnitudes, check_positive
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DepthModel:
     """What every model of the final depth takes.
 
-    Raises ValueError as `check_inputs` and `check_each` do.
+    Raises ValueError as `check_positive` and `check_magnitudes` do.
 
     velocity V [m/s], radius R [m], particle_density rho_p [kg/m^3], resistance R_t [Pa].
     """
@@ -33,8 +33,8 @@ class DepthModel:
     resistance: float
 
     def __post_init__(self) -> None:
-        check_inputs(asdict(self))
-        check_each(**asdict(self))
+        check_positive(asdict(self))
+        check_magnitudes(**asdict(self))
 
     @property
     def final_depth(self) -> float:

@@ -21,9 +21,9 @@ from replication.models.impact import (
     GREATEST_INPUT,
     LEAST_INPUT,
     InputError,
-    check_each,
-    check_inputs,
-    check_range,
+    check_magnitudes,
+    check_positive,
+    check_products,
     least_usual,
 )
 
@@ -56,7 +56,7 @@ is too large or too small to compute with; TypeError for input that is not real 
 
 
 def _for_anything(
-    model: Model, range_check: Callable[..., None] = check_range, doc: str = _DOC
+    model: Model, range_check: Callable[..., None] = check_products, doc: str = _DOC
 ) -> Model:
     """Return the public form of a model: checked, and for numbers, arrays and other containers."""
     signature = inspect.signature(model)
@@ -99,7 +99,7 @@ def _solving(model: Model, name: str) -> Model:
 
 def _estimating(model: Model) -> Model:
     """Return the public form of an estimate, whose inputs are not those of an impact."""
-    return _for_anything(model, check_each, _DOC_OF_ESTIMATES)
+    return _for_anything(model, check_magnitudes, _DOC_OF_ESTIMATES)
 
 
 def _public(function: Model, model: Model, doc: str) -> Model:
@@ -268,7 +268,7 @@ class _UnusualError(Exception):
 
 
 def _computed(
-    plain: Model, many: Model, range_check: Callable[..., None] = check_range, **inputs: Any
+    plain: Model, many: Model, range_check: Callable[..., None] = check_products, **inputs: Any
 ) -> Any:
     """Check the inputs, compute by the plain model or for arrays by `many`, check the results."""
     numbers = _numbers(inputs)
@@ -371,7 +371,7 @@ def _refuse(
     """Raise InputError for the first element that fails a check or has no finite result, if any."""
     for index, value, case in _doubtful(numbers, result):
         try:
-            check_inputs(case)
+            check_positive(case)
             range_check(**case)
             if not math.isfinite(value):
                 raise _without_result(case, value)

@@ -11,7 +11,7 @@ DEFAULT_STEP, STOP_VELOCITY = 2e-10, 1.0
 MAY_BE_ZERO = frozenset({"time", "at_depth", "at_velocity", "stop_velocity", "particle_strength"})
 
 LEAST_INPUT, GREATEST_INPUT = 1e-40, 1e40
-"""`check_range` accepts all inputs in this range, as its products have at most six factors."""
+"""`check_products` accepts all inputs in this range, as its products have at most six factors."""
 
 
 class InputError(ValueError):
@@ -40,7 +40,7 @@ class Impact:
     step dt [s], stop_velocity [m/s]; the target resistance R_t [Pa] either as `resistance` or as
     the product of `beta` [1] and `flow_stress` Y_t [Pa] (Eq. 7). Raises ValueError naming an input
     that is not finite, not positive (the stop velocity may be zero), missing, given twice, or
-    outside of the range of `check_range`.
+    outside of the range of `check_products`.
 
     >>> Impact(velocity=500, radius=11e-6, particle_density=8900, target_density=7850,
     ...        beta=5, flow_stress=700e6).target_resistance
@@ -75,8 +75,8 @@ class Impact:
             except (TypeError, ValueError, OverflowError) as error:
                 raise InputError(name, f"must be one number, in SI units: {error}") from error
             object.__setattr__(self, name, inputs[name])
-        check_inputs(inputs)
-        check_range(**self.motion, step=self.step)
+        check_positive(inputs)
+        check_products(**self.motion, step=self.step)
 
     def __repr__(self) -> str:
         """The call that makes this case: without what is not given, or is the report's."""
@@ -95,9 +95,13 @@ class Impact:
     @property
     def motion(self) -> dict[str, float]:
         """The inputs of Eq. 13: the arguments of `depth.final_depth`, in order."""
-        names = ("velocity", "radius", "particle_density", "target_density")
-        stated = {name: getattr(self, name) for name in names}
-        return stated | {"resistance": self.target_resistance}
+        return {
+            "velocity": self.velocity,
+            "radius": self.radius,
+            "particle_density": self.particle_density,
+            "target_density": self.target_density,
+            "resistance": self.target_resistance,
+        }
 
     @property
     def diameter(self) -> float:
@@ -119,10 +123,10 @@ def particle_mass(radius: float, particle_density: float) -> float:
     return particle_density * 4 / 3 * math.pi * radius * radius * radius
 
 
-def check_inputs(inputs: Mapping[str, float]) -> None:
+def check_positive(inputs: Mapping[str, float]) -> None:
     """Raise InputError for the first input that is not finite, or not positive where it must be.
 
-    >>> check_inputs({"velocity": 500.0, "radius": -1.0})
+    >>> check_positive({"velocity": 500.0, "radius": -1.0})
     Traceback (most recent call last):
     replication.models.impact.InputError: radius is -1.0: it must be a finite number greater than \
 zero
@@ -136,7 +140,7 @@ zero
             raise InputError(name, f"is {value!r}: it must be a finite number{least}")
 
 
-def check_range(
+def check_products(
     velocity: float = 1.0, particle_density: float = 1.0, target_density: float = 1.0,
     resistance: float = 1.0, radius: float = 1.0, step: float = 1.0, **_: float,
 ) -> None:  # fmt: skip
@@ -149,19 +153,20 @@ def check_range(
     mass = particle_mass(radius, particle_density)
     if not 0 < mass < math.inf:
         raise InputError("particle mass", f"is {mass!r}: it must be a number above zero")
-    carried("target resistance", resistance)  # beta times flow stress may have underflowed to 0
-    carried("step", step)
-    carried("radius squared", radius * radius)
-    carried("velocity squared", velocity * velocity)
-    carried("particle density", particle_density)
-    carried("target density", target_density)
+    # beta times the flow stress may have underflowed to 0.
+    check_in_doubles("target resistance", resistance)
+    check_in_doubles("step", step)
+    check_in_doubles("radius squared", radius * radius)
+    check_in_doubles("velocity squared", velocity * velocity)
+    check_in_doubles("particle density", particle_density)
+    check_in_doubles("target density", target_density)
     pressure = 0.5 * target_density * velocity * velocity
-    carried("dynamic pressure", pressure)
-    carried("dynamic pressure over target resistance", pressure / resistance)
+    check_in_doubles("dynamic pressure", pressure)
+    check_in_doubles("dynamic pressure over target resistance", pressure / resistance)
     ratio = particle_density / target_density
     # The depth over the radius is at most some 800 times this ratio, and histories square it.
-    carried("ratio of the densities squared", ratio * ratio)
-    carried("kinetic energy density over target resistance", pressure / resistance * ratio)
+    check_in_doubles("ratio of the densities squared", ratio * ratio)
+    check_in_doubles("kinetic energy density over target resistance", pressure / resistance * ratio)
 
 
 def least_usual(name: str) -> float:
@@ -186,11 +191,11 @@ def are_within(values: Sequence[float], least: float, greatest: float) -> bool:
     return within
 
 
-def check_each(**inputs: float) -> None:
+def check_magnitudes(**inputs: float) -> None:
     """Raise InputError for the first input that is not in range; zero may be.
 
-    The range is `LEAST_INPUT` to `GREATEST_INPUT`. For formulas with inputs that `check_range` does
-    not know, this keeps every product in range.
+    The range is `LEAST_INPUT` to `GREATEST_INPUT`. For formulas with inputs that `check_products`
+    does not know, this keeps every product in range.
     """
     for name, value in inputs.items():
         if value and not LEAST_INPUT <= value <= GREATEST_INPUT:
@@ -200,7 +205,7 @@ def check_each(**inputs: float) -> None:
             raise InputError(name, problem)
 
 
-def carried(name: str, value: float) -> None:
+def check_in_doubles(name: str, value: float) -> None:
     """Raise InputError unless the value is far enough from the ends of the range of doubles."""
     if not 1e-250 <= value <= 1e250:
         raise InputError(name, f"is {value!r}: doubles carry 1e-250 to 1e250 safely")

@@ -20,7 +20,7 @@ import math
 from replication.models.crater import crater_volume_ratio
 from replication.models.depth import normalized_depth
 from replication.models.estimates import constant_pressure_depth
-from replication.models.impact import InputError, carried, check_range
+from replication.models.impact import InputError, check_in_doubles, check_products
 
 LARGEST_LOGARITHM = 600.0
 """A logarithm L beyond which e^L is treated as infinite: of inputs in range it is 576 at most."""
@@ -154,11 +154,11 @@ without any, at the constant pressure R_t, the depth is 8.273 um
     """
     if "radius" in inputs:
         y = inputs["depth"] / inputs["radius"]
-        carried("depth over radius squared", y * y)
+        check_in_doubles("depth over radius squared", y * y)
     if name == "target_density":
         energy = inputs["particle_density"] * inputs["velocity"] * inputs["velocity"]
-        carried("particle density times velocity squared", energy)
-        carried("this over target resistance", energy / inputs["resistance"])
+        check_in_doubles("particle density times velocity squared", energy)
+        check_in_doubles("this over target resistance", energy / inputs["resistance"])
     if name == "target_density" and math.isnan(value):
         names = ("velocity", "radius", "particle_density", "resistance")
         most = constant_pressure_depth(*(inputs[name] for name in names))
@@ -169,7 +169,7 @@ without any, at the constant pressure R_t, the depth is 8.273 um
     if not 0 < value < math.inf:
         problem = f"is {value!r} for this depth: doubles carry 1e-250 to 1e250 safely"
         raise InputError(name, problem)
-    check_range(**inputs, **{name: value})
+    check_products(**inputs, **{name: value})
 
 
 def _pressure_over_resistance(logarithm: float) -> float:

@@ -107,9 +107,12 @@ def run(impact: Impact, scheme: str = Scheme.PUBLISHED) -> Sheet:
         raise TypeError(f"give an Impact, such as BETA_5, not {impact!r}")
     scheme = Scheme(scheme)
     dt, v_stop = impact.step, impact.stop_velocity
-    inputs = *impact.motion.values(), dt, v_stop
     touch = Row(0.0, impact.velocity, 0.0, 0.0, None)
-    rows = touch, *map(Row._make, _rows(scheme is Scheme.CENTERED, *inputs))
+    below = _rows(
+        scheme is Scheme.CENTERED, impact.velocity, impact.radius, impact.particle_density,
+        impact.target_density, impact.target_resistance, dt, v_stop,
+    )  # fmt: skip
+    rows = touch, *map(Row._make, below)
     _, v, x, a, v_final = rows[-1]
     if (v if v_final is None else v_final) >= v_stop:
         raise refusal(math.nan, dt, v_stop)

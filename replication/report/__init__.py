@@ -8,7 +8,10 @@ from typing import TYPE_CHECKING, Any
 from msgspec.structs import replace
 
 from reference.ledger import INFERRED, Ledger
+from reference.units import to_si
+from replication.audit.assessment import Verdict
 from replication.audit.record import ClaimRecord, EquationRecord, Finding, Record
+from replication.audit.verdict import Judge
 from replication.report import tables, words
 from replication.report.prose import HTML, MARKDOWN, TERMINAL, Named, Prose, plain_quotation
 from replication.report.terminal import Terminal, capital
@@ -120,6 +123,7 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
     parts = {
         "record": record,
         "words": words,
+        "verdicts": Verdict,
         "not_as_printed": tables.not_as_printed(record),
         "main": tables.main_results(record),
         "findings": record.findings[:FINDINGS_ON_SCREEN],
@@ -128,27 +132,32 @@ def summary(record: Record, width: int, strong: bool = False) -> str:
     by_title = TERMINAL._replace(known="{title}")
     prose = Prose(by_title, record.symbols, words.names_of(record))
     writer = Terminal(prose, width, strong)
-    helpers = {"fill": writer.filled, "grid": writer.grid, "strong": writer.emphasized}
+    helpers = {
+        "fill": writer.filled,
+        "grid": writer.grid,
+        "judged": writer.judged,
+        "strong": writer.emphasized,
+    }
     return _from_template("summary.txt.j2", prose, {**parts, **helpers}).rstrip("\n")
 
 
 def proof(
     claim: ClaimRecord,
     findings: Sequence[Finding],
-    ledger: Ledger,
+    judge: Judge,
     width: int,
     strong: bool = False,
 ) -> str:
     """Write one claim with all that its verdict rests on, and the titles of the findings on it.
 
-    Other entries are named by the ledger.
+    Other entries are named by the ledger of the claim's judge.
     """
-    names = _names(ledger)
-    writer = Terminal(_prose(ledger, names), width, strong)
+    names = _names(judge)
+    writer = Terminal(_prose(judge.ledger, names), width, strong)
     stated, quote = claim.claim, writer.prose(plain_quotation(claim.claim.quote))
     parts = [
         writer.heading(stated.title, claim.id),
-        writer.filled(f"{words.printed_with_unit(stated)}, {stated.place}: {claim.verdict}"),
+        writer.judged(f"{words.printed_with_unit(stated)}, {stated.place}:", claim.verdict),
         writer.filled(f'"{quote.replace("⟦", "").replace("⟧", "")}"'),
         "",
         writer.filled(writer.prose(f"{claim.explanation} {claim.scope}")),
@@ -159,23 +168,23 @@ def proof(
         parts += ["", writer.filled(formula), writer.filled(f"By hand: {by_hand}")]
     if facts := tables.facts(claim, names):
         parts += ["", writer.columns(facts)]
-    shown = tables.explanation_tables(claim)
+    shown = tables.explanation_tables(claim, names)
     return "\n".join([*parts, *writer.grids(shown), *writer.titles(findings)])
 
 
 def equation_proof(
     equation: EquationRecord,
     findings: Sequence[Finding],
-    ledger: Ledger,
+    judge: Judge,
     width: int,
     strong: bool = False,
 ) -> str:
     """Write one equation with what its verdict rests on, and the titles of the findings on it."""
-    writer = Terminal(_prose(ledger, _names(ledger)), width, strong)
-    shown = tables.constants(equation, ledger), tables.repairs(equation.repairs)
+    writer = Terminal(_prose(judge.ledger, _names(judge)), width, strong)
+    shown = tables.constants(equation, judge.ledger), tables.repairs(equation.repairs)
     parts = [
         writer.heading(words.equation_title(equation), equation.id),
-        writer.filled(f"{equation.equation.place}: {equation.verdict}"),
+        writer.judged(f"{equation.equation.place}:", equation.verdict),
         writer.filled(writer.prose(plain_quotation(equation.text))),
         "",
         writer.filled(writer.prose(equation.explanation)),
@@ -184,12 +193,14 @@ def equation_proof(
     return "\n".join([*parts, *writer.grids(full), *writer.titles(findings)])
 
 
-def _names(ledger: Ledger) -> dict[str, Named]:
-    """Return what every id of the ledger refers to."""
+def _names(judge: Judge) -> dict[str, Named]:
+    """Return what every id of the judge's ledger refers to."""
+    ledger = judge.ledger
     names = {name: Named(e.title) for name, e in ledger.equations.items()}
     for name, inferred in ledger.inferred.items():
-        value = words.measured(float(inferred.nominal), inferred.unit)
-        names[f"{INFERRED}{name}"] = Named(inferred.title, value=value)
+        assumed = float(judge.value(INFERRED + name) / to_si(inferred.unit))
+        value = words.measured(assumed, inferred.unit)
+        names[INFERRED + name] = Named(inferred.title, value=value)
     for name, entry in ledger.claims.items():
         names[name] = Named(entry.title, value=words.printed_with_unit(entry))
     return names

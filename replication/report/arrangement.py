@@ -11,6 +11,7 @@ from replication.audit.record import ClaimRecord, EquationRecord, Finding, Infer
 from replication.power import measured_rates
 from replication.report import tables, words
 from replication.report.prose import Named
+from replication.report.terminal import capital
 from replication.text import Table
 
 SECTIONS: Mapping[str, str] = {
@@ -73,6 +74,15 @@ class FindingPart:
     finding: Finding
     settle: str
     numbers: Table
+
+    @property
+    def contents(self) -> str:
+        """What is shown of it beside its statement, in words."""
+        contents = ["by hand"] if self.finding.by_hand else []
+        contents += ["what would settle it"] if self.settle else []
+        if not contents:
+            return "Its numbers"
+        return f"{capital(', '.join(contents))}, and its numbers"
 
 
 @dataclass(frozen=True)
@@ -172,7 +182,7 @@ class Arrangement:
             by_hand,
             findings,
             facts,
-            tables.explanation_tables(record),
+            tables.explanation_tables(record, self.names),
         )
 
     @property

@@ -13,6 +13,7 @@ from reference.scheme import Scheme
 from replication.audit import record as r
 from replication.audit.assessment import Comparison, ConfirmedRange, Reading
 from replication.audit.comparison import SHARES
+from replication.audit.inference import DENSITY
 from replication.report.prose import Named, plain_quotation
 from replication.report.words import measured, printed_with_unit, shown_range
 from replication.text import Table, between, number, quantity, rounded
@@ -38,7 +39,7 @@ def facts(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[tuple[str, 
         "to 25 digits": first and first.reference,
         "proven range": first and between(first.judgements[0].ends),
         "off by": error is not None
-        and record.verdict.is_open
+        and record.verdict.needs_explanation
         and f"{number(error, 3)} units of the last printed digit",
         "computed from": first and ", ".join(inputs),
         "for instance (SI)": first and _values(first.judgements[0].witness or {}),
@@ -101,7 +102,7 @@ def main_results(record: r.Record) -> Table:
 
 def _title(record: r.Record, claim: Claim) -> str:
     """Return a claim's title, and which main result as printed it is computed from, if any."""
-    used = [other.claim for other in record.claims if other.id in {*claim.entries} & {*MAIN}]
+    used = [other.claim for other in record.claims if other.id in {*claim.input_ids} & {*MAIN}]
     printed = " and ".join(map(printed_with_unit, used))
     return f"{claim.title}, from the printed {printed}" if used else claim.title
 
@@ -111,23 +112,25 @@ def not_as_printed(record: r.Record) -> Table:
 
     Each reading of an equation has a column.
     """
-    failing = [entry for entry in record.claims if entry.verdict.is_open]
+    failing = [claim for claim in record.claims if claim.verdict.needs_explanation]
     constants = (entry.assessment.constants for entry in record.equations)
     needed = {name: constant.needed for own in constants for name, constant in own.items()}
     as_printed = "computed as printed"
-    names = (reading.name for entry in failing for reading in entry.assessment.readings)
+    names = (reading.name for claim in failing for reading in claim.assessment.readings)
     *_, last = heads = tuple(dict.fromkeys([as_printed, *filter(None, names)]))
     rows = []
-    for entry in failing:
-        digits = significant_digits(entry.claim.text)
+    for claim in failing:
+        digits = significant_digits(claim.claim.text)
         texts = {
             reading.name or as_printed: f"{reading.computed:#.{digits}g}"
-            for reading in entry.assessment.readings
+            for reading in claim.assessment.readings
         }
-        if entry.id in needed:
-            texts[last] = "derived: " * (last == as_printed) + " or ".join(needed[entry.id])
+        if claim.id in needed:
+            texts[last] = " or ".join(needed[claim.id])
+            if last == as_printed:
+                texts[last] = f"derived: {texts[last]}"
         own = (texts.get(head, "") for head in heads)
-        rows.append((f"`{entry.id}`", printed_with_unit(entry.claim), *own))
+        rows.append((f"`{claim.id}`", printed_with_unit(claim.claim), *own))
     return Table("What does not come out as printed", ("number", "printed", *heads), rows)
 
 
@@ -141,8 +144,11 @@ def significant_digits(text: str) -> int:
     return len(re.sub(r"\D", "", mantissa).lstrip("0")) or 1
 
 
-def explanation_tables(record: r.ClaimRecord) -> list[Table]:
-    """Return the explanations tried for a claim that fails, and the figures that judge a remark."""
+def explanation_tables(record: r.ClaimRecord, names: Mapping[str, Named]) -> list[Table]:
+    """Return the explanations tried for a claim that fails, and the figures that judge a remark.
+
+    `names` have the assumed value of the target density, at which slips are computed.
+    """
     figures = [(f.means, measured(f.value, f.unit, 4) or NO_VALUE) for f in record.figures]
     slips = [(s.name, str(s.departures), measured(s.value, "1", 5), s.fits) for s in record.slips]
     inputs = []
@@ -154,13 +160,12 @@ def explanation_tables(record: r.ClaimRecord) -> list[Table]:
     readings = dict.fromkeys(solved.reading or "as printed" for solved in record.back_solved)
     heads = ("input", "printed", *(f"needed, {reading}" for reading in readings), "searched")
     changed = "Proven values of one input that would give the number, all others as printed"
+    at_density = f"X/R at {names[DENSITY].value}" if slips else "X/R"
     tables = (
         Table("The figures to judge it by", ("what", "computed"), figures),
         Table(changed, heads, inputs),
         repairs(record.repairs, record.id),
-        Table(
-            _slips_title(record), ("Eq. 16 with", "slips", "X/R at 7850 kg/m^3", "prints so"), slips
-        ),
+        Table(_slips_title(record), ("Eq. 16 with", "slips", at_density, "prints so"), slips),
     )
     return [shown for shown in tables if shown.rows]
 
@@ -227,7 +232,8 @@ def evidence(finding: r.Finding) -> Table:
     for piece in finding.evidence:
         is_stated = piece.asserted.lstrip("<=> ") in standing
         shown = quantity(piece.asserted, piece.unit) if is_stated else piece.means
-        rows.append((shown, computed(piece) + ": NOT AS STATED" * (not piece.holds)))
+        value = computed(piece)
+        rows.append((shown, value if piece.holds else f"{value}: NOT AS STATED"))
     return Table("The numbers of this text, with two more digits", ("stated", "computed"), rows)
 
 

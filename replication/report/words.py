@@ -43,6 +43,27 @@ ABOUT_REMARKS = (
     "it; of several the first tells most."
 )
 
+ABOUT_SENSITIVITY = (
+    "All depths here are exact solutions of the report's equation of motion, without time steps. "
+    "The derivatives are analytic: by how many percent the depth changes for one percent of the "
+    "input."
+)
+
+ABOUT_SOURCES = "The report does not derive these numbers. This is what public sources print."
+
+ALL_COME_OUT = "Every number that can be checked comes out as printed."
+
+CAPTIONS: Mapping[str, str] = {
+    "figure-3": "The curves of the report's Figure 3, recomputed.",
+    "figure-5": "The curve of the report's Figure 5, recomputed, with the observed X/R.",
+    "convergence": "How far the sheet's final depth is from the exact depth at rest. A part of it "
+    "is due to the stop: the sheet ends with the first velocity below the stop velocity, wherever "
+    "its steps put that.",
+    "sensitivity": "Final depth for beta = 5 as each input goes through a range, the others as "
+    "printed.",
+}
+"""What stands below a figure."""
+
 TAKEN_EXACTLY = "taken exactly as the rest of the header"
 """The condition under which the printed mass excludes the density that is assumed."""
 
@@ -102,7 +123,7 @@ def shown_range(effect: r.Effect) -> str:
 def condition(record: r.ClaimRecord) -> str:
     """Return under which conventions a verdict holds, unless `USUAL_CONDITIONS` says it."""
     first = record.as_printed
-    said = record.verdict.is_open or (first is not None and first.otherwise)
+    said = record.verdict.needs_explanation or (first is not None and first.otherwise)
     return record.scope if said else ""
 
 
@@ -171,7 +192,7 @@ def if_choices_are_rounded(record: r.Record) -> str:
     named = [
         f"{claim.claim.shown} as {reading.name}"
         for claim in record.claims
-        if claim.verdict.is_open
+        if claim.verdict.needs_explanation
         for reading in claim.assessment.readings
         for judgement in reading.otherwise
         if judgement.convention == rounded and judgement.verdict is Verdict.WITHIN_ROUNDING
@@ -215,6 +236,40 @@ def culprit(record: r.Record) -> str:
     return f"One misprint would explain {len(record.failing)} of the failures"
 
 
+def approaches_in_words(record: r.Record) -> str:
+    """Say what the approaches are that their names do not tell, and why some are only quoted."""
+    claims = {claim.id: claim.claim for claim in record.claims}
+    sentences = ["\"Constant pressure\" is the report's law without the target's inertia."]
+    sentences += (
+        f"X/R by {approach.name} is quoted: it {claims[approach.claim].why}."
+        for approach in record.approaches
+        if approach.computed is None and approach.claim and claims[approach.claim].why
+    )
+    return " ".join(sentences)
+
+
+def scatter_in_words(record: r.Record) -> str:
+    """Say what the report states of the scatter, and what the laws make of it."""
+    claims = {claim.id: claim.claim for claim in record.claims}
+    sizes, velocities = claims["diameter-deviation"], claims["velocity-deviation"]
+    about = "about " if velocities.kind == "approximation" else ""
+    return (
+        f"The report states the {sizes.title}, {printed_with_unit(sizes)}, and the "
+        f"{velocities.title}, {about}{printed_with_unit(velocities)}. By mass and by drag, a "
+        'particle\'s velocity is computed from its size; the law "as stated" takes the scatter of '
+        "the velocities. X/R is the exact one for beta = 5."
+    )
+
+
+def blank_cells(record: r.Record) -> str:
+    """Say how many cells of Table A-1 are blank, and which."""
+    cells = record.blank_cells
+    return (
+        f"{len(cells)} cells of the table are blank ({cells[0]} to {cells[-1]}); they are not "
+        "counted as numbers."
+    )
+
+
 def swap(repair: r.Repair) -> str:
     """Return what a repair changes: the text instead of the original."""
     return f"{plain_quotation(repair.text)} for {plain_quotation(repair.original)}"
@@ -240,6 +295,12 @@ def inferred(records: Sequence[r.InferredRecord]) -> str:
                 f"chose, it admits none outside {possible}"
             )
         sentences.append(f"{sentence}.")
+    if compared := [comparison for record in records for comparison in record.sources]:
+        admitted = sum(comparison.agrees for comparison in compared)
+        sentences.append(
+            f"Of the {len(compared)} values that public sources print, Table A-1 admits {admitted} "
+            "without a further condition."
+        )
     return " ".join(sentences)
 
 

@@ -53,7 +53,7 @@ class Asked(Mapping[str, tuple[Node, ...]]):
 def test_a_computation_takes_the_claims_inputs_and_uses_the_equations_that_it_names(
     claim: Claim,
 ) -> None:
-    point = {name: float(LEDGER.value(name)) for name in claim.entries}
+    point = {name: float(LEDGER.value(name)) for name in claim.input_ids}
     for reading, computation in claim.computations.items():
         parameters = signature(computation.function).parameters.values()
         if not any(parameter.kind is parameter.VAR_KEYWORD for parameter in parameters):
@@ -74,7 +74,7 @@ def in_other_units(unit: str) -> float:
 @pytest.mark.parametrize("claim", CLAIMS, ids=lambda claim: claim.id)
 def test_a_computation_gives_the_claims_unit(claim: Claim) -> None:
     """With every input in other units, the result is the same quantity in these units."""
-    point = {name: float(LEDGER.value(name)) for name in claim.entries}
+    point = {name: float(LEDGER.value(name)) for name in claim.input_ids}
     changed = {name: x * in_other_units(LEDGER.unit(name)) for name, x in point.items()}
     for reading in claim.computations:
         function = LEDGER.function(claim, reading=reading)
@@ -85,7 +85,7 @@ def test_a_computation_gives_the_claims_unit(claim: Claim) -> None:
 @pytest.mark.parametrize("claim", COMPUTED, ids=lambda claim: claim.id)
 def test_reals_lie_within_narrow_intervals(claim: Claim) -> None:
     ar = Reals(50)
-    point = {name: LEDGER.value(name) for name in claim.entries}
+    point = {name: LEDGER.value(name) for name in claim.input_ids}
     for reading in claim.computations:
         for scheme in Scheme if claim.by_scheme else (Scheme.PUBLISHED,):
             function = LEDGER.function(claim, reading=reading, scheme=scheme)
@@ -101,7 +101,7 @@ def test_the_printed_equation_is_what_is_computed() -> None:
     """With 3 for 2 in Eq. 16 the depth is two thirds of it."""
     misprinted = LEDGER.misprint("eq16-denominator", "3")
     claim = LEDGER.claims["frank-zook-rha"]
-    point = {name: float(LEDGER.value(name)) for name in claim.entries}
+    point = {name: float(LEDGER.value(name)) for name in claim.input_ids}
     printed = LEDGER.function(claim)(Floats(), **point)
     changed = misprinted.function(claim)(Floats(), **point)
     assert changed / printed == pytest.approx(2 / 3, rel=1e-14)

@@ -10,7 +10,7 @@ from typing import Any, get_args
 import msgspec
 import pytest
 
-from reference.ledger import Claim, Convention, Kind, Lines, as_shown, entry, load
+from reference.ledger import Claim, Convention, Kind, Lines, as_shown, load, read_lines
 from reference.printed import Rounding
 from reference.units import same_dimension
 
@@ -239,8 +239,8 @@ def test_a_claim_has_what_its_kind_and_its_computations_need(claim: Claim) -> No
     assert {computation.by_row for computation in claim.computations.values()} <= {
         claim.row is not None
     }
-    assert all(claim.id in LEDGER.claims[name].entries for name in claim.shown_by)
-    assert all(LEDGER.value(name) is not None for name in claim.entries)
+    assert all(claim.id in LEDGER.claims[name].input_ids for name in claim.shown_by)
+    assert all(LEDGER.value(name) is not None for name in claim.input_ids)
 
 
 def test_claims_do_not_rest_on_each_other_in_a_circle() -> None:
@@ -276,7 +276,7 @@ def test_inferred_inputs_and_sources_name_existing_entries() -> None:
 )
 def test_a_wrong_key_is_refused_with_the_claims_id(lines: dict[str, Any], message: str) -> None:
     with pytest.raises(msgspec.ValidationError, match=f"^ledger.toml: my-claim: .*{message}"):
-        entry("my-claim", Lines(**lines), Claim)
+        read_lines("my-claim", Lines(**lines), Claim)
 
 
 def test_a_wrong_line_is_refused() -> None:

@@ -78,7 +78,7 @@ def test_a_sheets_history_is_compared_down_to_its_stop_velocity(beta_5: Case) ->
     late = np.interp(np.minimum(beta_5.times, 2e-8), beta_5.times, depths)
     assert beta_5.error("history", late) > 1e-2
     # Before that velocity, only the linear interpolation is off.
-    _, velocity = history(2e-8, *BETA_5.motion.values())
+    _, velocity = history(2e-8, **BETA_5.motion)
     assert beta_5.error("history", late, stop=velocity) < 1e-3
 
 

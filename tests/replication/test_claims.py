@@ -1,11 +1,12 @@
 """One test for every number that the report prints, by its id."""
 
+import re
 from fractions import Fraction as F
 
 import pytest
 
 from reference.ledger import INFERRED, Claim, Convention, load
-from replication.audit.assessment import Verdict
+from replication.audit.assessment import Ground, Verdict
 from replication.audit.audit import Audit
 from replication.audit.record import Record
 
@@ -75,7 +76,7 @@ def test_claim(claim: Claim, record: Record) -> None:
     assert judged.verdict == expected(claim)
     assert judged.explanation.endswith(".")
     known = LEDGER.claims.keys() | {INFERRED + key for key in LEDGER.inferred}
-    assert set(claim.entries) <= known
+    assert set(claim.input_ids) <= known
     assert len(judged.scopes) == len(judged.assessment.readings)
     assert all(scope.endswith(".") for scope in judged.scopes)
     if judged.as_printed is not None:
@@ -99,6 +100,36 @@ def test_claim(claim: Claim, record: Record) -> None:
         assert claim.why in judged.explanation
 
 
+SAYS = {
+    (Ground.WORDS, "remark, quantified"): r"A remark, not a number|It says again",
+    (Ground.REPETITION, "consistent"): r"The report lists|It repeats or compares with",
+    (Ground.COMPUTATION, "reproduced"): r"(?!.*\bnot (in|as)\b).*\b(in|as) ",
+    (Ground.COMPUTATION, "not reproduced"): r".*\bnot (in|as) ",
+    (Ground.EQUATION, "reproduced"): r"With this number, and no other that was tried, the equation",
+    (Ground.EQUATION, "consistent"): r"With this number, and no other that was tried, the equation",
+    (Ground.EQUATION, "not reproduced"): r"With .* instead of .* the equation follows",
+    (Ground.EQUATION, "not checkable"): r"Dimensions, limits and signs do not decide it",
+    (Ground.SOURCES, "agrees with public sources"): r".* It agrees with",
+    (Ground.OTHERS, "consistent"): r".* out as printed: ",
+    (Ground.COMPARISON, "consistent"): r"A sphere of that volume|Scaled to a particle",
+    (Ground.COMPARISON, "agrees with public sources"): r"By the rules that public sources print",
+    (Ground.DEFINITION, "consistent"): r"Nothing to compute: ",
+    (Ground.NOTHING, "not checkable"): r"Nothing in the report decides it: ",
+}
+"""How the explanation of a claim begins, by the ground and the verdict; no others occur."""
+
+
+@pytest.mark.parametrize("claim", LEDGER.claims)
+def test_the_explanation_tells_the_ground_of_the_verdict(claim: str, record: Record) -> None:
+    judged = record.claim(claim)
+    assert re.match(SAYS[judged.assessment.ground, judged.verdict.value], judged.explanation)
+    assert ("decide" in judged.explanation) == (judged.verdict is Verdict.NOT_CHECKABLE)
+
+
+def test_every_ground_is_tested(record: Record) -> None:
+    assert {claim.assessment.ground for claim in record.claims} == {*Ground} - {Ground.NO_VALUE}
+
+
 def test_nothing_is_expected_that_is_not_there() -> None:
     listed = {*NOT_REPRODUCED, *SOURCES, *SHOWN, *TAKEN_OVER, *REPEATED, *COMPARED}
     assert listed <= set(LEDGER.claims)
@@ -110,10 +141,14 @@ def test_nothing_is_expected_that_is_not_there() -> None:
 def test_a_formula_that_a_misprint_leaves_without_a_value_ends_no_audit() -> None:
     ledger = LEDGER.misprint("fz-resistance-rha", "0")
     spoiled = Audit(ledger, every_convention=False).record()
-    assert spoiled.claim("frank-zook-rha").verdict == "not reproduced"
+    armor = spoiled.claim("frank-zook-rha")
+    assert (armor.verdict.value, armor.assessment.ground) == ("not reproduced", Ground.NO_VALUE)
+    assert armor.explanation == (
+        "With the numbers as printed it cannot be computed: it divides by zero."
+    )
     assert {f.id for f in spoiled.findings if not f.holds} >= {"equation-16", "frank-zook-values"}
-    armor = [a for a in spoiled.approaches if a.claim == "frank-zook-rha"]
-    assert [a.computed for a in armor] == [None, None]
+    approaches = [a for a in spoiled.approaches if a.claim == "frank-zook-rha"]
+    assert [a.computed for a in approaches] == [None, None]
 
 
 def test_a_claim_that_there_is_not_says_where_the_ids_are(record: Record) -> None:

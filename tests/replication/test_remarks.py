@@ -1,12 +1,15 @@
 """The figures by which a reader judges what the report says of its results in words."""
 
 import re
+from functools import cache
 from math import log, pi
 
 import pytest
 
 from reference.ledger import load
+from replication.audit import comparison
 from replication.audit.audit import Audit
+from replication.audit.findings import findings
 from replication.audit.remarks import REMARKS, figures
 from replication.audit.results import Results
 
@@ -200,3 +203,58 @@ def test_a_remark_that_repeats_another_says_where_its_figures_are() -> None:
         explanation = Audit(LEDGER, every_convention=False).claim(claim.id).explanation
         assert explanation.startswith("It says again")
         assert f"`{claim.same_as}`" in explanation
+
+
+MISPRINTED = {
+    "a1-initial-velocity": "511", "velocity-403": "407", "velocity-521": "523",
+    "velocity-606": "607", "velocity-704": "709", "velocity-deviation": "53",
+    "stream-velocity-400": "401", "stream-velocity-450": "457",
+    "figure-5-velocity-least": "397", "figure-5-velocity-greatest": "503",
+    "particle-size-least": "11", "particle-size-greatest": "31", "mean-diameter": "23",
+    "crater-particle-diameter": "19", "observed-third": "1/4",
+    "depth-beta-3-beta": "3.1", "depth-beta-5-beta": "5.1", "a-step": "0.21", "coarse-step": "0.51",
+    "observed-ratio": "0.29", "observed-depth-ratio": "0.297", "strain-rate": "10^6",
+    "fz-resistance-stainless": "7.7×10^9", "volume-ratio-line": "0.059", "volume-ratio": "0.061",
+}  # fmt: skip
+"""Other texts for all numbers of the report that a label names."""
+DERIVED_NUMBERS = {"576", "21"}
+"""523 m/s and 53 m/s more, and the middle of 11 and 31 um."""
+OF_THE_AUDIT = {"1", "100", "10,000"}
+"""Not of the report: a strain and a rate of one, "less 1", and what a public source prints."""
+
+
+@cache
+def misprinted() -> Results:
+    """The results of the report with all of these misprints."""
+    ledger = LEDGER
+    for name, text in MISPRINTED.items():
+        ledger = ledger.misprint(name, text)
+    return Results(ledger, every_convention=False)
+
+
+def test_no_label_has_a_number_that_the_report_does_not_print() -> None:
+    """A label names the numbers with which its figure is computed, misprints included."""
+    results = misprinted()
+    labels = [figure.means for remark in REMARKS.values() for figure in remark(results)]
+    labels += [approach.name for approach in comparison.approaches(results)]
+    known = {number for text in MISPRINTED.values() for number in NUMBER.findall(text)}
+    for label in labels:
+        named = set(NUMBER.findall(EQUATIONS.sub("", label)))
+        assert named <= known | DERIVED_NUMBERS | OF_THE_AUDIT, label
+    every = " ".join(labels)
+    assert [text for text in MISPRINTED.values() if NUMBER.search(text)[0] not in every] == []
+
+
+def test_no_label_of_a_finding_has_a_velocity_that_the_report_does_not_print() -> None:
+    """Findings without a value are those on the report itself; quotations are of its text."""
+    changed = [LEDGER.claims[name] for name in MISPRINTED]
+    velocities = {claim.text for claim in changed if claim.unit == "m/s"}
+    numbers = [number for made in findings(misprinted()) for number in made.evidence]
+    labels = [number.means for number in numbers if number.computed is not None]
+    stale = [label for label in labels if velocities & set(NUMBER.findall(label))]
+    assert [label for label in stale if "the text says '" not in label] == []
+    assert any("523 m/s" in label for label in labels)
+
+
+NUMBER = re.compile(r"\d+(?:[.,]\d+)*")
+EQUATIONS = re.compile(r"Eqs?\. \d+(?: and \d+)?|Figure \d+")

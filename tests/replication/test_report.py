@@ -37,6 +37,7 @@ from replication import text as texts
 from replication.audit import comparison
 from replication.audit.audit import LIBRARIES, Audit, provenance
 from replication.audit.findings import findings_on
+from replication.audit.inference import DENSITY
 from replication.audit.record import Record
 from replication.audit.remarks import figures
 from replication.audit.results import Results
@@ -51,9 +52,21 @@ from replication.report.document import (
 )
 from replication.report.figures import draw_figures
 from replication.report.prose import HTML as PAGE
-from replication.report.prose import TERMINAL, Named, Prose
-from replication.report.tables import main_results
-from replication.report.words import counted_briefly, if_choices_are_rounded
+from replication.report.prose import MARKDOWN, TERMINAL, Named, Prose
+from replication.report.tables import explanation_tables, main_results
+from replication.report.words import (
+    ABOUT_SENSITIVITY,
+    ABOUT_SOURCES,
+    CONVENTIONS,
+    USUAL_CONDITIONS,
+    approaches_in_words,
+    blank_cells,
+    counted_briefly,
+    if_choices_are_rounded,
+    inferred,
+    names_of,
+    scatter_in_words,
+)
 from replication.text import json_text
 from spreadsheets.styles import CURVES
 
@@ -102,7 +115,9 @@ def test_the_schema_describes_every_object_in_lines_without_an_indent() -> None:
 
 
 def test_an_equation_for_a_terminal(audit: Audit) -> None:
-    text = report.equation_proof(audit.equation("eq16"), findings_on(audit, "eq16"), LEDGER, 100)
+    text = report.equation_proof(
+        audit.equation("eq16"), findings_on(audit, "eq16"), audit.judge, 100
+    )
     lines = text.splitlines()
     assert lines[:3] == [
         "Eq. 16, depth by Frank and Zook (eq16)",
@@ -346,6 +361,46 @@ def test_the_page_leads_with_what_could_have_failed(root: ET.Element, record: Re
     assert words(summary).startswith(f"Summary {counted_briefly(record.counts)} ")
 
 
+def test_the_x_r_of_a_slip_is_at_the_density_that_is_assumed(record: Record) -> None:
+    names = names_of(record)
+    elsewhere = {**names, DENSITY: names[DENSITY]._replace(value="7900 kg/m^3")}
+    for name in ("frank-zook-rha", "frank-zook-stainless"):
+        slips, moved = (
+            explanation_tables(record.claim(name), known)[-1] for known in (names, elsewhere)
+        )
+        assert (slips.heads[2], moved.heads[2]) == ("X/R at 7850 kg/m³", "X/R at 7900 kg/m^3")
+
+
+def test_how_many_densities_of_public_sources_table_a_1_admits(record: Record) -> None:
+    low, high = record.inferred[0].interval
+    values = [float(source.value) for source in LEDGER.sources_of(DENSITY)]
+    admitted = sum(low <= value <= high for value in values)
+    sentence = (
+        f"Of the {len(values)} values that public sources print, Table A-1 admits {admitted} "
+        "without a further condition."
+    )
+    assert inferred(record.inferred).endswith(sentence)
+
+
+def test_what_the_report_states_of_the_scatter(record: Record) -> None:
+    assert scatter_in_words(record).startswith(
+        "The report states the standard deviation of the particle diameter, 5.6 µm, and the mean "
+        "deviation of the particle velocity, about 50 m/s."
+    )
+
+
+def test_page_and_markdown_say_what_a_section_is_about(
+    files: dict[str, bytes], record: Record
+) -> None:
+    sentences = (
+        CONVENTIONS, USUAL_CONDITIONS, ABOUT_SENSITIVITY, ABOUT_SOURCES, blank_cells(record),
+        scatter_in_words(record), approaches_in_words(record),
+    )  # fmt: skip
+    for form, name in ((PAGE, "audit.html"), (MARKDOWN, "audit.md")):
+        prose, text = Prose(form, record.symbols, names_of(record)), files[name].decode()
+        assert [sentence for sentence in sentences if prose(sentence) not in text] == []
+
+
 def test_a_ratio_of_the_printed_depth_says_so(record: Record) -> None:
     """The depth above it is 7.66956 um, of which X/R would be 0.697232 and not 7.67/11."""
     rows = {head: computed for head, _, computed in main_results(record).rows}
@@ -416,7 +471,7 @@ def test_everything_stands_on_the_page_once(root: ET.Element, record: Record) ->
             straight = text.replace("\xa0", " ").translate(str.maketrans("’“”", '\'""'))
             usual = not any(reading.otherwise for reading in claim.assessment.readings[:1])
             assert (claim.scope.removesuffix(".") in straight) == (
-                claim.verdict.is_open or not usual
+                claim.verdict.needs_explanation or not usual
             )
     targets = {a.get("href") for a in by_id(root, "sources").iter(f"{HTML}a")}
     compared = {c.source.address for claim in record.claims for c in claim.sources}
@@ -424,7 +479,7 @@ def test_everything_stands_on_the_page_once(root: ET.Element, record: Record) ->
 
 
 def test_what_fails_can_be_checked_by_hand(root: ET.Element, record: Record) -> None:
-    failing = [claim for claim in record.claims if claim.verdict.is_open]
+    failing = [claim for claim in record.claims if claim.verdict.needs_explanation]
     assert {"frank-zook-rha", "frank-zook-stainless", "eq16-denominator"} <= {c.id for c in failing}
     summary = words(by_id(root, "summary"))
     for claim in failing:

@@ -12,11 +12,11 @@ from replication.audit.slips import (
     TYPED,
     Eq16Inputs,
     Member,
+    Slip,
     base_10,
     densities_exchanged,
     density_ratio_inverted,
     density_ratio_on_k_1,
-    depth_with_slips,
     divisor_left_out,
     doubled,
     drag_inverted,
@@ -30,6 +30,7 @@ from replication.audit.slips import (
     one_left_out,
     one_minus,
     sum_without_brackets,
+    with_slips,
 )
 
 LEDGER = load()
@@ -44,7 +45,7 @@ LN_ARMOR, LN_STEEL = (log(1 + 1.046 * 7850 * 500**2 / R_t) for R_t in (9.13e9, 7
 def test_without_a_slip_it_is_eq_16_as_printed() -> None:
     z = 1.046 * 7850 * 500**2 / 9.13e9
     printed = (2 / 3 * 8900 / 7850 + 0.557) / (2 * 1.046) * log(1 + z)
-    assert depth_with_slips(X, ()) == pytest.approx(printed, rel=1e-14, abs=0)
+    assert with_slips(()).depth(X) == pytest.approx(printed, rel=1e-14, abs=0)
 
 
 @pytest.mark.parametrize(
@@ -82,16 +83,21 @@ def test_without_a_slip_it_is_eq_16_as_printed() -> None:
     ],
 )  # fmt: skip
 def test_slips_computed_apart(member: Member, inputs: Eq16Inputs, value: float) -> None:
-    assert depth_with_slips(inputs, member) == pytest.approx(value, rel=1e-14, abs=0)
+    assert with_slips(member).depth(inputs) == pytest.approx(value, rel=1e-14, abs=0)
+
+
+def test_a_slip_in_a_part_that_there_is_not_is_refused() -> None:
+    with pytest.raises(TypeError, match="densty"):
+        with_slips((Slip("densty", "no density", lambda x: 1.0),))
 
 
 def test_every_slip_changes_the_value_and_only_two_do_it_alike() -> None:
-    values = Counter(round(depth_with_slips(X, (slip,)), 12) for slip in TYPED)
-    assert round(depth_with_slips(X, ()), 12) not in values
+    values = Counter(round(with_slips((slip,)).depth(X), 12) for slip in TYPED)
+    assert round(with_slips(()).depth(X), 12) not in values
     # With 1/2 for k_t the divisor is 1, as if there were none.
     assert sum(values.values()) - len(values) == 1
-    assert depth_with_slips(X, (half_for_k_t,)) == pytest.approx(
-        depth_with_slips(X, (divisor_left_out,)), rel=1e-14
+    assert with_slips((half_for_k_t,)).depth(X) == pytest.approx(
+        with_slips((divisor_left_out,)).depth(X), rel=1e-14
     )
 
 
@@ -109,8 +115,8 @@ def test_the_family_has_each_slip_each_pair_and_each_pair_doubled() -> None:
 
 def test_two_slips_within_one_bracket_are_members() -> None:
     members = {frozenset(member) for member in family(LEDGER, X)}
-    within = [("density ratio", "k_1"), ("L/D", "sign"), ("k_t below", "divisor"),
-              ("fraction", "argument"), ("k_t above", "power"), ("terms", "k_1")]  # fmt: skip
+    within = [("density_ratio", "k_1"), ("length_ratio", "sign"), ("k_t_below", "divisor"),
+              ("fraction", "argument"), ("k_t_above", "power"), ("terms", "k_1")]  # fmt: skip
     for parts in within:
         first, second = ([slip for slip in TYPED if slip.part == part] for part in parts)
         assert {frozenset(pair) for pair in product(first, second)} <= members
@@ -151,7 +157,7 @@ def test_the_expected_number_of_accidents_counts_what_shifted_targets_meet() -> 
     values = []
     for member in family(LEDGER, X):
         try:
-            values.append(depth_with_slips(X, member))
+            values.append(with_slips(member).depth(X))
         except (ArithmeticError, ValueError):
             continue
     distinct = {f"{value:.12e}" for value in values if value > 0}
@@ -165,7 +171,7 @@ def test_the_expected_number_of_accidents_counts_what_shifted_targets_meet() -> 
 
 
 def test_exchanged_densities_are_exchanged_in_both_places() -> None:
-    exchanged = depth_with_slips(X, (densities_exchanged,))
+    exchanged = with_slips((densities_exchanged,)).depth(X)
     z = 1.046 * 8900 * 500**2 / 9.13e9
     by_hand = (2 / 3 * 7850 / 8900 + 0.557) / (2 * 1.046) * log(1 + z)
     assert exchanged == pytest.approx(by_hand, rel=1e-14, abs=0)

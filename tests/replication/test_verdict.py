@@ -9,7 +9,7 @@ from itertools import pairwise
 
 import pytest
 
-from reference.enclosure import satisfying
+from reference.enclosure import Satisfiability, satisfying
 from reference.ledger import Convention, load
 from reference.scheme import Scheme
 from replication.audit import wording
@@ -58,7 +58,7 @@ def test_a_witness_prints_like_the_report_and_gives_the_number(audit: Audit) -> 
             constraints, box = inference.joint(convention, {entry: (witness[entry],) * 2})
             at_witness = {name: (witness.get(name, low), witness.get(name, high))
                           for name, (low, high) in box.items()}  # fmt: skip
-            assert satisfying(constraints, at_witness)[0] is True, name
+            assert satisfying(constraints, at_witness)[0] is Satisfiability.SHOWN, name
 
 
 def test_a_witness_has_the_mass_where_the_radius_is_computed_from_it() -> None:
@@ -119,11 +119,13 @@ def test_rounded_inputs_widen_the_range_of_densities_that_table_a_1_admits() -> 
     assert own.admitted(Convention(header_exact=True)) == own.outer
 
 
-def serves(convention: Convention, point: dict[str, F]) -> bool | None:
+def serves(convention: Convention, point: dict[str, F]) -> bool:
     """Whether the evidence can hold at a point, with the other inputs within their rounding."""
     density = point.pop(DENSITY)
     constraints, box = inference().joint(convention, {DENSITY: (density, density)})
-    return satisfying(constraints, {**box, **{name: (x, x) for name, x in point.items()}})[0]
+    outcome, _ = satisfying(constraints, {**box, **{name: (x, x) for name, x in point.items()}})
+    assert outcome is not Satisfiability.UNDECIDED
+    return outcome is Satisfiability.SHOWN
 
 
 def test_a_number_that_contradicts_the_evidence_is_not_said_to_lie_outside_its_range() -> None:

@@ -114,7 +114,7 @@ def random_cases(seed: int) -> tuple[Impact, Impact]:
             stop_velocity=draw(0.0, 20.0),
         )
         # The mean velocity is about half the impact velocity, which doubles the number of steps.
-        step = final_depth(*low.motion.values()) / low.velocity / draw(0.5, 180.0)
+        step = final_depth(**low.motion) / low.velocity / draw(0.5, 180.0)
         cases = replace(low, step=step), replace(low, step=step, beta=round(draw(8, 64)) / 8)
         longest = (run(replace(case, step=dt)).steps for case in cases for dt in (step, 5e-10))
         if max(longest) <= 400:

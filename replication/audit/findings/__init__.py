@@ -15,15 +15,16 @@ from msgspec.structs import replace
 
 from reference.ledger import load
 from replication.audit.findings.contradictions import minimum_velocity, wrong_reference
+from replication.audit.findings.densities import target_density
 from replication.audit.findings.evidence import FindingFunction
 from replication.audit.findings.frank_zook import (
     equation_16,
     frank_zook_pair,
-    frank_zook_values,
     headline,
     sphere_equivalent,
     two_resistances,
 )
+from replication.audit.findings.frank_zook_inputs import frank_zook_values
 from replication.audit.findings.hydrocodes import autodyne_cells, cth_pressure, unlike_strengths
 from replication.audit.findings.implications import (
     energy_balance,
@@ -38,7 +39,7 @@ from replication.audit.findings.resistance import (
     rigid_strength,
     strengths,
 )
-from replication.audit.findings.sheet import table_columns, target_density, two_schemes
+from replication.audit.findings.sheet import table_columns, two_schemes
 from replication.audit.findings.stream import (
     compared_velocity,
     equation_1_scatter,
@@ -79,12 +80,12 @@ FINDINGS: tuple[FindingFunction, ...] = (
 )
 
 
-def findings(audit: Results) -> list[Finding]:
+def findings(results: Results) -> list[Finding]:
     """Return all findings, the headline first."""
-    return [_finding(find, audit) for find in FINDINGS]
+    return [_finding(find, results) for find in FINDINGS]
 
 
-def finding(audit: Results, name: str) -> Finding:
+def finding(results: Results, name: str) -> Finding:
     """Return one finding, by its id: its function's name, with hyphens. KeyError if there is none.
 
     >>> from replication.audit.audit import Audit
@@ -92,23 +93,23 @@ def finding(audit: Results, name: str) -> Finding:
     True
     """
     by_id = {find.function.__name__.replace("_", "-"): find for find in FINDINGS}
-    return _finding(by_id[name], audit)
+    return _finding(by_id[name], results)
 
 
-def findings_on(audit: Results, name: str) -> list[Finding]:
+def findings_on(results: Results, name: str) -> list[Finding]:
     """Return the findings that concern a claim or an equation, without the headline."""
-    return [_finding(find, audit) for find in FINDINGS[1:] if name in find.concerns]
+    return [_finding(find, results) for find in FINDINGS[1:] if name in find.concerns]
 
 
-def _finding(find: FindingFunction, audit: Results) -> Finding:
+def _finding(find: FindingFunction, results: Results) -> Finding:
     """Return a finding. With a misprint planted in the report, it may have numbers without a value.
 
     It is then the finding on the report itself, of which no number holds.
     """
     try:
-        return find(audit)
+        return find(results)
     except (ArithmeticError, LookupError, ValueError):
-        if not audit.ledger.misprinted:
+        if not results.ledger.misprinted:
             raise
     finding = find(_report())
     nothing = [replace(number, computed=None, holds=False) for number in finding.evidence]

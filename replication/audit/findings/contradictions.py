@@ -6,21 +6,21 @@ from replication.audit.record import Evidence, Finding
 from replication.audit.results import Results
 
 
-def says_once(audit: Results, name: str, words: str, means: str) -> Evidence:
+def says_once(results: Results, name: str, words: str, means: str) -> Evidence:
     """Return how often the report has these words: once."""
-    return equals(name, "1", " ".join(audit.ledger.text.split()).count(words), "1", means)
+    return equals(name, "1", " ".join(results.ledger.text.split()).count(words), "1", means)
 
 
 @concerning("minimum-velocity-greatest", "stream-velocity-521")
-def minimum_velocity(audit: Results) -> Finding:
+def minimum_velocity(results: Results) -> Finding:
     """Two sections disagree on the least velocity at which particles stick."""
-    text = audit.text
+    text = results.text
     section_2 = says_once(
-        audit, "section_2", "be higher than 403 m/s, but less than 521 m/s",
+        results, "section_2", "be higher than 403 m/s, but less than 521 m/s",
         "places where the text says 'be higher than 403 m/s, but less than 521 m/s'",
     )  # fmt: skip
     section_4 = says_once(
-        audit, "section_4", "suggesting that only faster-than-average particles were",
+        results, "section_4", "suggesting that only faster-than-average particles were",
         "places where it says 'suggesting that only faster-than-average particles were'",
     )  # fmt: skip
     return conclude(
@@ -42,16 +42,20 @@ def minimum_velocity(audit: Results) -> Finding:
 
 
 @concerning("eq6", "eq5")
-def wrong_reference(audit: Results) -> Finding:
+def wrong_reference(results: Results) -> Finding:
     """The report refers to Eq. 1 where it means Eq. 5, and has a few slips of wording."""
-    text = audit.text
-    stress = refutes("stress", "Sigma" in audit.ledger.printed_text("eq1"), "Eq. 1 contains Sigma")
-    follows = proves(
-        "follows", audit.verdict("eq6") is Verdict.REPRODUCED, "Eq. 6 follows from Eq. 5 with u = v"
+    text = results.text
+    stress = refutes(
+        "stress", "Sigma" in results.ledger.printed_text("eq1"), "Eq. 1 contains Sigma"
     )
-    times = says_once(audit, "times", "equation 1 reduces", "places where the text says so")
+    follows = proves(
+        "follows",
+        results.verdict("eq6") is Verdict.REPRODUCED,
+        "Eq. 6 follows from Eq. 5 with u = v",
+    )
+    times = says_once(results, "times", "equation 1 reduces", "places where the text says so")
     caption = says_once(
-        audit, "caption", "500-m/s steel", "places where the text says '500-m/s steel'"
+        results, "caption", "500-m/s steel", "places where the text says '500-m/s steel'"
     )
     ratio = text("volume-ratio")
     return conclude(

@@ -27,8 +27,8 @@ class FindingFunction:
     function: Callable[[Results], Finding]
     concerns: tuple[str, ...]
 
-    def __call__(self, audit: Results) -> Finding:
-        return replace(self.function(audit), claims=list(self.concerns))
+    def __call__(self, results: Results) -> Finding:
+        return replace(self.function(results), claims=list(self.concerns))
 
 
 def concerning(*names: str) -> Callable[[Callable[[Results], Finding]], FindingFunction]:

@@ -1,7 +1,7 @@
 """Findings on section 3's comparison with the model of Frank and Zook (Eqs. 14 to 17)."""
 
 from fractions import Fraction
-from math import cbrt, expm1, log, log1p
+from math import cbrt, log, log1p
 
 from reference.arithmetic import Arithmetic, Floats, Number
 from reference.enclosure import enclose
@@ -20,8 +20,7 @@ from replication.audit.findings.evidence import (
 )
 from replication.audit.inference import DENSITY
 from replication.audit.record import Finding
-from replication.audit.results import DERIVED, Results, case, exact_ratio
-from replication.audit.slips import EVERY_DENSITY
+from replication.audit.results import DERIVED, Results, case, density_taken, exact_ratio
 
 RISE = {
     "k_t": "fz-kt",
@@ -44,54 +43,58 @@ def rise(
     return ar.log(1 + z / R_low) / ar.log(1 + z / R_t) - 1
 
 
-def least_rise(audit: Results, convention: Convention) -> Fraction:
+def least_rise(results: Results, convention: Convention) -> Fraction:
     """Return the proven least `rise` over all inputs that print like the report's."""
-    box = {name: audit.judge.rounded(entry, convention).ends for name, entry in RISE.items()}
+    box = {name: results.judge.rounded(entry, convention).ends for name, entry in RISE.items()}
     return enclose(rise, box).ends[0]
 
 
-def drag(audit: Results) -> Fraction:
+def drag(results: Results) -> Fraction:
     """k_t rho_t V^2 [Pa], the drag in Eq. 16's logarithm, at the inputs as printed."""
-    return audit.exact("fz-kt") * audit.exact(DENSITY) * audit.exact("a1-initial-velocity") ** 2
+    return (
+        results.exact("fz-kt") * results.exact(DENSITY) * results.exact("a1-initial-velocity") ** 2
+    )
 
 
-def inertia(audit: Results, length_ratio: str = "sphere-length-ratio") -> Fraction:
+def inertia(results: Results, length_ratio: str = "sphere-length-ratio") -> Fraction:
     """L/D rho_p/rho_t + k_1 [1] of Eq. 16 at the inputs as printed; the claim gives L/D."""
-    densities = audit.exact("a1-density") / audit.exact(DENSITY)
-    return audit.exact(length_ratio) * densities + audit.exact("fz-k1")
+    densities = results.exact("a1-density") / results.exact(DENSITY)
+    return results.exact(length_ratio) * densities + results.exact("fz-k1")
 
 
 def derived_ratio(
-    audit: Results, R_t: Fraction, length_ratio: str = "sphere-length-ratio"
+    results: Results, R_t: Fraction, length_ratio: str = "sphere-length-ratio"
 ) -> float:
     """X/R [1] from Eqs. 14 and 15 at the target resistance R_t [Pa]."""
-    return float(inertia(audit, length_ratio) / audit.exact("fz-kt")) * log1p(drag(audit) / R_t)
+    return float(inertia(results, length_ratio) / results.exact("fz-kt")) * log1p(
+        drag(results) / R_t
+    )
 
 
-def common_velocity(audit: Results) -> float:
+def common_velocity(results: Results) -> float:
     """Return the velocity [m/s] up to which Eq. 16 raises X/R by more than the print allows.
 
     The rise is the least for the greatest k_t and for the two R_t closest together, and it falls
     as the velocity grows: so it holds below this velocity.
     """
     rounded = Convention(choices_exact=False)
-    k_t = audit.judge.rounded("fz-kt", rounded).ends[1]
-    R_t = audit.judge.rounded("fz-resistance-rha", rounded).ends[0]
-    R_low = audit.judge.rounded("fz-resistance-stainless", rounded).ends[1]
+    k_t = results.judge.rounded("fz-kt", rounded).ends[1]
+    R_t = results.judge.rounded("fz-resistance-rha", rounded).ends[0]
+    R_low = results.judge.rounded("fz-resistance-stainless", rounded).ends[1]
     least, greatest, floats = Fraction(100), Fraction(10**5), Floats()
     for _ in range(50):  # to 1e-10 m/s
         middle = (least + greatest) / 2
-        values = [float(value) for value in (k_t, audit.exact(DENSITY), middle, R_t, R_low)]
-        if rise(floats, *values) > greatest_rise(audit):
+        values = [float(value) for value in (k_t, results.exact(DENSITY), middle, R_t, R_low)]
+        if rise(floats, *values) > greatest_rise(results):
             least = middle
         else:
             greatest = middle
     return float(least)
 
 
-def greatest_rise(audit: Results) -> Fraction:
+def greatest_rise(results: Results) -> Fraction:
     """Return the greatest ratio of two X/R that print like the two of section 3, less one."""
-    armor, steel = (audit.ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless"))
+    armor, steel = (results.ledger.claims[f"frank-zook-{name}"] for name in ("rha", "stainless"))
     return steel.target().ends[1] / armor.target().ends[0] - 1
 
 
@@ -99,32 +102,32 @@ RESULTS = ("depth-beta-3", "depth-beta-5", "ratio-beta-3", "ratio-beta-5")
 """The final depths of the report's model, and their X/R."""
 
 
-def derived_over_printed(audit: Results) -> Fraction:
+def derived_over_printed(results: Results) -> Fraction:
     """Return the derived over the printed right side of Eq. 16; 0 if that is not one number."""
-    factor = audit.judge.assess_equation("eq16").factor
+    factor = results.judge.assess_equation("eq16").factor
     return Fraction(0) if factor is None else 1 / factor
 
 
 @concerning("frank-zook-rha", "frank-zook-stainless", "eq16")
-def headline(audit: Results) -> Finding:
+def headline(results: Results) -> Finding:
     """The sentence with which files begin and the text on a terminal ends."""
     factor = equals(
         "factor",
         "2",
-        derived_over_printed(audit),
+        derived_over_printed(results),
         "1",
         "derived right side of Eq. 16 over the printed one",
     )
-    apart = least_rise(audit, Convention(choices_exact=False)) - greatest_rise(audit)
+    apart = least_rise(results, Convention(choices_exact=False)) - greatest_rise(results)
     evidence = (
         proves(
             "model",
-            {*audit.verdicts("a1-"), *map(audit.verdict, RESULTS)} == {Verdict.REPRODUCED},
+            {*results.verdicts("a1-"), *map(results.verdict, RESULTS)} == {Verdict.REPRODUCED},
             "Table A-1, both final depths and their X/R are reproduced",
         ),
         proves(
             "pair",
-            audit.verdicts("frank-zook-") == {Verdict.NOT_REPRODUCED},
+            results.verdicts("frank-zook-") == {Verdict.NOT_REPRODUCED},
             "neither Frank-Zook value follows from Eq. 16 as printed",
         ),
         above(
@@ -151,9 +154,9 @@ def headline(audit: Results) -> Finding:
 @concerning(
     "frank-zook-rha", "frank-zook-stainless", "fz-resistance-rha", "fz-resistance-stainless"
 )
-def frank_zook_pair(audit: Results) -> Finding:
+def frank_zook_pair(results: Results) -> Finding:
     """Section 3 changes only R_t between its two X/R, but R_t alone moves them further apart."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     armor, steel = text("frank-zook-rha"), text("frank-zook-stainless")
     R_t, R_low = exact("fz-resistance-rha"), exact("fz-resistance-stainless")
     falls = prints(
@@ -161,15 +164,15 @@ def frank_zook_pair(audit: Results) -> Finding:
         "by how much R_t falls from the one value to the other",
     )  # fmt: skip
     least = at_least(
-        "least", "17.7", least_rise(audit, Convention()), "percent",
+        "least", "17.7", least_rise(results, Convention()), "percent",
         "proven least rise of X/R, the R_t tried for stainless steel exact",
     )  # fmt: skip
     least_rounded = at_least(
-        "least_rounded", "16.9", least_rise(audit, Convention(choices_exact=False)), "percent",
+        "least_rounded", "16.9", least_rise(results, Convention(choices_exact=False)), "percent",
         "proven least rise of X/R, all inputs rounded",
     )  # fmt: skip
     nominal = prints(
-        "nominal", "17.9", log1p(drag(audit) / R_low) / log1p(drag(audit) / R_t) - 1, "percent",
+        "nominal", "17.9", log1p(drag(results) / R_low) / log1p(drag(results) / R_t) - 1, "percent",
         "rise of X/R at the inputs as printed",
     )  # fmt: skip
     printed = prints(
@@ -179,16 +182,17 @@ def frank_zook_pair(audit: Results) -> Finding:
     most = at_most(
         "most",
         "7.21",
-        greatest_rise(audit),
+        greatest_rise(results),
         "percent",
         "greatest rise of two numbers that print so",
     )
     z = prints(
-        "z", "2.053", drag(audit), "GPa", "k_t rho_t V^2 at the inputs as printed and 7850 kg/m^3"
-    )
+        "z", "2.053", drag(results), "GPa",
+        f"k_t rho_t V^2 at the inputs as printed and {density_taken(results)}",
+    )  # fmt: skip
     limit = at_least(
-        "limit", "2975", common_velocity(audit), "m/s",
-        "velocity below which this holds, both R_t and k_t rounded, 7850 kg/m^3",
+        "limit", "2975", common_velocity(results), "m/s",
+        f"velocity below which this holds, both R_t and k_t rounded, {density_taken(results)}",
     )  # fmt: skip
     density = equals("density", "7850", exact(DENSITY), "kg/m^3", "target density taken there")
     ratio = calculated("1.179", log1p(2.053 / (R_low / 10**9)) / log1p(2.053 / (R_t / 10**9)))
@@ -221,17 +225,17 @@ def frank_zook_pair(audit: Results) -> Finding:
 
 
 @concerning("eq16", "eq16-denominator", "frank-zook-rha", "frank-zook-stainless")
-def equation_16(audit: Results) -> Finding:
+def equation_16(results: Results) -> Finding:
     """Eq. 16 prints X/R, but its right side is X/D."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     observed = exact("observed-depth-ratio")
-    as_printed = {t: audit.computed(f"frank-zook-{t}") for t in ("rha", "stainless")}
-    derived = {t: audit.computed(f"frank-zook-{t}", DERIVED) for t in ("rha", "stainless")}
-    (needed,) = audit.judge.assess_equation("eq16").constants["eq16-denominator"].needed
+    as_printed = {t: results.computed(f"frank-zook-{t}") for t in ("rha", "stainless")}
+    derived = {t: results.computed(f"frank-zook-{t}", DERIVED) for t in ("rha", "stainless")}
+    (needed,) = results.judge.assess_equation("eq16").constants["eq16-denominator"].needed
     factor = equals(
         "factor",
         "2",
-        derived_over_printed(audit),
+        derived_over_printed(results),
         "1",
         "derived right side of Eq. 16 over the printed one",
     )
@@ -278,7 +282,7 @@ def equation_16(audit: Results) -> Finding:
         "greatest distance of the derived form from the observed X/R",
     )  # fmt: skip
     k_t, R_t = exact("fz-kt"), exact("fz-resistance-rha") / 10**9
-    sum_ = calculated("1.313", inertia(audit))
+    sum_ = calculated("1.313", inertia(results))
     half = calculated("0.127", 1.3128 / (2 * k_t) * log(1 + 2.0528 / R_t))
     two = text("eq16-denominator")
     return conclude(
@@ -314,293 +318,6 @@ def equation_16(audit: Results) -> Finding:
     )  # fmt: skip
 
 
-def input_needed(audit: Results, claim: str, entry: str) -> Fraction:
-    """Return the middle of the values (SI) of an input with which Eqs. 14 and 15 give a claim."""
-    solutions = audit.explainer.solutions(audit.ledger.claims[claim], DERIVED, entry)
-    return sum(solutions.inner[0], Fraction(0)) / 2
-
-
-def nearest_resistance(audit: Results, grid: Fraction) -> Fraction:
-    """Return the R_t [Pa] on a grid whose derived X/R comes nearest to the observed one."""
-    observed = audit["observed-depth-ratio"]
-    return min(
-        (grid * k for k in range(1, 200)),
-        key=lambda R_t: abs(derived_ratio(audit, R_t) - observed),
-    )
-
-
-def typed_without_brackets(audit: Results, rho_t: Fraction, R_t: Fraction) -> float:
-    """X/R [1], twice Eq. 16, with "/2*k_t" in a cell, which multiplies by k_t.
-
-    Target density rho_t [kg/m^3] and resistance R_t [Pa].
-    """
-    k_t, V = exact_of(audit, "fz-kt", "a1-initial-velocity")
-    L_D, rho_p, k_1 = exact_of(audit, "sphere-length-ratio", "a1-density", "fz-k1")
-    return float((L_D * rho_p / rho_t + k_1) * k_t) * log1p(k_t * rho_t * V**2 / R_t)
-
-
-def density_on_k_1(audit: Results, R_t: Fraction) -> float:
-    """X/R [1], twice Eq. 16, with the density ratio on k_1 in place of L/D; R_t [Pa]."""
-    L_D, rho_p, k_1, k_t = exact_of(audit, "sphere-length-ratio", "a1-density", "fz-k1", "fz-kt")
-    bracket = L_D + k_1 * rho_p / audit.exact(DENSITY)
-    return float(bracket / k_t) * log1p(drag(audit) / R_t)
-
-
-def densities_that_give(audit: Results, claim: str) -> tuple[float, float]:
-    """Return the densities [kg/m^3] between which `typed_without_brackets` prints as the claim."""
-    least, greatest = audit.ledger.claims[claim].target().ends
-    return _density_that_gives(audit, float(least)), _density_that_gives(audit, float(greatest))
-
-
-def _density_that_gives(audit: Results, ratio: float) -> float:
-    """Return the target density [kg/m^3] at which `typed_without_brackets`, which grows, is so."""
-    R_t = audit.exact("fz-resistance-rha")
-    low, high = Fraction(7000), Fraction(9000)
-    for _ in range(40):  # to 2e-9 kg/m^3
-        middle = (low + high) / 2
-        if typed_without_brackets(audit, middle, R_t) < ratio:
-            low = middle
-        else:
-            high = middle
-    return float(low)
-
-
-def exact_of(audit: Results, *names: str) -> list[Fraction]:
-    """Return the values (SI) of several entries."""
-    return [audit.exact(name) for name in names]
-
-
-TARGETS = ("rha", "stainless")
-"""The endings of the ids of the two Frank-Zook values: armor, and stainless steel."""
-
-
-@concerning("frank-zook-rha", "frank-zook-stainless", "fz-resistance-stainless")
-def frank_zook_values(audit: Results) -> Finding:
-    """What would give the two printed values."""
-    text, exact, judge = audit.text, audit.exact, audit.judge
-    stainless = audit.ledger.claims["frank-zook-stainless"]
-    function = audit.ledger.function(stainless, reading=DERIVED)
-    usual = judge.inputs_as_rounded(stainless, Convention())
-    admitted = {
-        **judge.inputs_as_rounded(stainless, Convention(choices_exact=False)),
-        "a1-initial-velocity": usual["a1-initial-velocity"],
-        DENSITY: judge.rounded(DENSITY, Convention(header_exact=True)).ends,
-    }
-    z, sum_, k_t = drag(audit), inertia(audit), exact("fz-kt")
-    X_R = audit.computed("frank-zook-stainless", DERIVED)
-    derived = prints(
-        "derived", "0.300", X_R, "1", "X/R from Eqs. 14 and 15, the R_t tried for stainless steel"
-    )
-    off = prints(
-        "off", "1", X_R / exact("frank-zook-stainless") - 1, "percent",
-        "that over the printed value, less one",
-    )  # fmt: skip
-    least_exact = at_least(
-        "least_exact", "0.2987", enclose(function, usual).ends[0], "1",
-        "proven least X/R with that R_t exact",
-    )  # fmt: skip
-    least_admitted = at_least(
-        "least_admitted", "0.2979", enclose(function, admitted).ends[0], "1",
-        "proven least X/R with that R_t rounded, 500 m/s exact, and a density that the header as "
-        "printed admits",
-    )  # fmt: skip
-    digit = audit.last_digit("fz-resistance-stainless")
-    grid = equals("grid", "0.1", digit, "GPa", "unit of the last digit of that R_t")
-    corner = proves(
-        "corner",
-        {
-            judgement.verdict
-            for judgement in audit.reading("frank-zook-stainless", DERIVED).judgements
-            if judgement.convention == Convention(choices_exact=False)
-        }
-        == {Verdict.WITHIN_ROUNDING},
-        "with that R_t rounded, some inputs that print like the report's give the printed value",
-    )
-    needed = prints(
-        "needed", "7.69", input_needed(audit, "frank-zook-stainless", "fz-resistance-stainless"),
-        "GPa",
-        "R_t that gives the printed value, derived form",
-    )  # fmt: skip
-    R_nearest = nearest_resistance(audit, digit)
-    nearest = prints(
-        "nearest", "7.7", R_nearest, "GPa",
-        "R_t on a grid of 0.1 GPa whose X/R is nearest to the observed one",
-    )  # fmt: skip
-    after = prints(
-        "next", "0.2966", derived_ratio(audit, R_nearest), "1", "X/R with an R_t 0.1 GPa higher"
-    )
-    three_digits = Fraction(f"{X_R:.2e}")
-    back = prints(
-        "back", "7.603", z / expm1(three_digits * k_t / sum_), "GPa",
-        "R_t that gives X/R = 0.300, derived form",
-    )  # fmt: skip
-    rha_resistance = prints(
-        "rha_resistance", "8.28", input_needed(audit, "frank-zook-rha", "fz-resistance-rha"), "GPa",
-        "R_t that gives the value for armor, derived form",
-    )  # fmt: skip
-    rha_velocity = prints(
-        "rha_velocity", "525", input_needed(audit, "frank-zook-rha", "a1-initial-velocity"), "m/s",
-        "V that gives the value for armor, derived form",
-    )  # fmt: skip
-    rha_derived = prints(
-        "rha_derived", "0.255", audit.computed("frank-zook-rha", DERIVED), "1",
-        "X/R from Eqs. 14 and 15, R_t of armor",
-    )  # fmt: skip
-    never = proves(
-        "never",
-        {
-            judgement.verdict
-            for reading in judge.assess(audit.ledger.claims["frank-zook-rha"]).readings
-            for judgement in reading.judgements
-            if judgement.convention.choices_exact
-        }
-        == {Verdict.NOT_REPRODUCED},
-        "the value for armor is in no form and under no convention of rounding, choices exact",
-    )
-    tried = {name: audit.slips(audit.ledger.claims[f"frank-zook-{name}"]) for name in TARGETS}
-    names = {name: {slip.name for slip in fitting} for name, (_, fitting) in tried.items()}
-    forms = equals(
-        "forms", "2532", tried["rha"][0].forms, "1", "forms of Eq. 16 in the family of slips"
-    )
-    members = equals(
-        "members", "2086", tried["rha"][0].members, "1",
-        "different values of the family of slips that is generated, for armor",
-    )  # fmt: skip
-    fit_rha = equals(
-        "fit_rha", "4", len(names["rha"]), "1",
-        "members of the family that give the armor value for some density that is admitted",
-    )  # fmt: skip
-    fit_stainless = equals(
-        "fit_stainless", "6", len(names["stainless"]), "1",
-        "members of the family that give the stainless value for some density that is admitted",
-    )  # fmt: skip
-    at_taken = {
-        name: sum(
-            audit.ledger.claims[f"frank-zook-{name}"].target().contains(Fraction(slip.value))
-            for slip in fitting
-        )
-        for name, (_, fitting) in tried.items()
-    }
-    taken_rha = equals("taken_rha", "1", at_taken["rha"], "1", "those that do at 7850 kg/m^3")
-    taken_stainless = equals(
-        "taken_stainless", "2", at_taken["stainless"], "1", "the same, stainless steel"
-    )
-    (same_density,) = (
-        slip for slip in tried["rha"][1] if slip.fits == EVERY_DENSITY and slip.departures == 2
-    )
-    both_copper = prints(
-        "both_copper", "0.27785", same_density.value, "1",
-        "Eq. 16 with 1/2 for k_t in the divisor and the particle's density for both, armor",
-    )  # fmt: skip
-    chance_rha = prints(
-        "chance_rha", "3.9", tried["rha"][0].expected, "1",
-        "how many members would give the armor value by accident",
-    )  # fmt: skip
-    chance_stainless = prints(
-        "chance_stainless", "4.0", tried["stainless"][0].expected, "1",
-        "how many members would give the stainless value by accident",
-    )  # fmt: skip
-    fit_both = equals(
-        "fit_both", "0", len(names["rha"] & names["stainless"]), "1", "members that give both"
-    )
-    multiplied_rha, multiplied_stainless = (
-        typed_without_brackets(audit, exact(DENSITY), R_t)
-        for R_t in (exact("fz-resistance-rha"), exact("fz-resistance-stainless"))
-    )
-    multiplied = prints(
-        "multiplied", "0.278503", multiplied_rha, "1",
-        "Eq. 16 with /2*k_t typed without brackets and X/R twice X/D, armor, 7850 kg/m^3",
-    )  # fmt: skip
-    multiplied_other = prints(
-        "multiplied_other", "0.328", multiplied_stainless, "1", "the same, stainless steel"
-    )
-    from_density, to_density = densities_that_give(audit, "frank-zook-rha")
-    from_ = at_most(
-        "from", "7764.3", from_density, "kg/m^3",
-        "target density from which that prints as the armor value",
-    )  # fmt: skip
-    below = at_least(
-        "below", "7849.7", to_density, "kg/m^3",
-        "target density below which that prints as the armor value",
-    )  # fmt: skip
-    with_mass = judge.inference(DENSITY).with_mass.ends
-    always = proves(
-        "always",
-        from_density < with_mass[0] and with_mass[1] < to_density,
-        "it does for every density that the header of Table A-1 admits with its printed mass",
-    )
-    on_k_1 = prints(
-        "on_k_1", "0.29674", density_on_k_1(audit, exact("fz-resistance-stainless")), "1",
-        "X/R twice X/D, the density ratio on k_1 in place of L/D, stainless steel",
-    )  # fmt: skip
-    on_k_1_other = prints(
-        "on_k_1_other", "0.252", density_on_k_1(audit, exact("fz-resistance-rha")), "1",
-        "the same, armor",
-    )  # fmt: skip
-    assumed = equals("assumed", "7850", exact(DENSITY), "kg/m^3", "target density that is taken")
-    inertia_ = prints("inertia", "1.3128", sum_, "1", "L/D rho_p/rho_t + k_1")
-    z_ = prints("z", "2.0528", z, "GPa", "k_t rho_t V^2")
-    R_steel = exact("fz-resistance-stainless") / 10**9
-    steps = (
-        calculated("0.300", 1.3128 / k_t * log(1 + 2.0528 / R_steel)),
-        calculated("0.297", 1.3128 / k_t * log(1 + 2.0528 / 7.7)),
-        calculated("0.278", 1.3128 / k_t * log(1 + 2.0528 / 8.28)),
-    )
-    factor = f"{inertia_}/{text('fz-kt')}"
-    return conclude(
-        "frank-zook-values",
-        "unstated input",
-        title=f"{text('frank-zook-stainless')} is {off} % from the derived {derived}; what gave "
-        f"{text('frank-zook-rha')} is open",
-        statement=f"As derived from Eqs. 14 and 15 and with {text('fz-resistance-stainless')} Pa "
-        f"exactly, X/R is {derived}, not {text('frank-zook-stainless')}. It is at least "
-        f"{least_exact} for all other inputs that print like the report's "
-        f"({text('a1-initial-velocity')} m/s and {text('a-step')} ns exact, the mass the "
-        f"sphere's). If that resistance is itself rounded, {text('frank-zook-stainless')} can be "
-        f"reached; at {text('a1-initial-velocity')} m/s exactly it needs a target density that the "
-        f"header of Table A-1 as printed excludes, as those that it admits give {least_admitted} "
-        f"or more. In the derived form {text('frank-zook-rha')} needs R_t = {rha_resistance} GPa "
-        f"(printed {text('fz-resistance-rha', 'GPa')}) or V = {rha_velocity} m/s (printed "
-        f"{text('a1-initial-velocity')}); no input within its rounding gives it. What slips would "
-        "give is computed for a family of them, generated from each thing that is typed once: "
-        "Eq. 16 with one slip or two, also two within one bracket, each with and without the "
-        "missing factor of 2. The family has "
-        f"{forms} forms with {members} different values. For some density that Table A-1 admits, "
-        f"{fit_rha} of them print {text('frank-zook-rha')} and {fit_stainless} print "
-        f"{text('frank-zook-stainless')} (at {assumed} kg/m^3 {taken_rha} and {taken_stainless}), "
-        f"where {chance_rha} and {chance_stainless} would by accident, reckoned from how many "
-        f"come within a factor of three halves; {fit_both} print both. Two of those for armor have "
-        "two departures from Eq. 16. One puts 1/2 for k_t in the divisor and the particle's "
-        f"density for both densities, and gives {both_copper} whatever the target density. The "
-        "other is "
-        'the only one that is a single slip in the derived form: "/2kt" typed into a cell as '
-        f"/2*k_t multiplies by k_t. With X/R twice X/D that gives {multiplied} for {assumed} "
-        f"kg/m^3, and prints {text('frank-zook-rha')} "
-        f"for every density from {from_} to {below}, so for all that the header with its printed "
-        f"mass admits; for stainless steel it gives {multiplied_other}. With the density ratio on "
-        f"k_1 in place of L/D, X/R twice X/D, stainless steel gives {on_k_1}, which prints "
-        f"{text('frank-zook-stainless')}, and armor {on_k_1_other}. Two other ways to "
-        f"{text('frank-zook-stainless')}: on a grid of {grid} GPa the resistance that comes "
-        f"nearest to the observed {text('observed-depth-ratio')} is {nearest} GPa, and it gives "
-        f"{after}; and the derived {derived}, rounded, gives back {back} GPa, which prints "
-        f"{text('fz-resistance-stainless', 'GPa')}. All of this is suggestive, none of it proven.",
-        by_hand=f"{factor} * ln(1 + {z_}/{text('fz-resistance-stainless', 'GPa')}) = {steps[0]}; "
-        f"with {nearest} in place of {text('fz-resistance-stainless', 'GPa')} {factor} * ln(1 + "
-        f"{z_}/{nearest}) = {steps[1]}; with {rha_resistance} {factor} * ln(1 + "
-        f"{z_}/{rha_resistance}) = {steps[2]}.",
-        settle="R_t and V as they were used, and the steps of the calculation.",
-        status="open",
-        evidence=(
-            derived, off, least_exact, least_admitted, grid, corner, needed, nearest, after, back,
-            rha_resistance, rha_velocity, rha_derived, never, inertia_, z_, forms, members, fit_rha,
-            fit_stainless, chance_rha, chance_stainless, fit_both, multiplied, multiplied_other,
-            from_, below, always, on_k_1, on_k_1_other, assumed, taken_rha, taken_stainless,
-            both_copper,
-        ),
-        steps=steps,
-    )  # fmt: skip
-
-
 @concerning(
     "fz-resistance-rha",
     "fz-resistance-stainless",
@@ -610,32 +327,33 @@ def frank_zook_values(audit: Results) -> Finding:
     "frank-zook-rha",
     "frank-zook-stainless",
 )
-def two_resistances(audit: Results) -> Finding:
+def two_resistances(results: Results) -> Finding:
     """The report gives the same target other resistances in its two models."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     Y_t = exact("flow-stress")
     R_3, R_5 = exact("depth-beta-3-beta") * Y_t, exact("depth-beta-5-beta") * Y_t
     low = prints("low", "2.1", R_3, "GPa", "R_t for beta = 3")
     high = prints("high", "3.5", R_5, "GPa", "R_t for beta = 5")
     fz_low = prints(
-        "fz_low", "0.856", derived_ratio(audit, R_3), "1",
+        "fz_low", "0.856", derived_ratio(results, R_3), "1",
         "X/R from Eqs. 14 and 15 at the R_t of beta = 3",
     )  # fmt: skip
     fz_high = prints(
-        "fz_high", "0.579", derived_ratio(audit, R_5), "1",
+        "fz_high", "0.579", derived_ratio(results, R_5), "1",
         "X/R from Eqs. 14 and 15 at the R_t of beta = 5",
     )  # fmt: skip
     model_stainless = prints(
         "model_stainless", "0.466",
-        exact_ratio(case(audit, 5, resistance=audit["fz-resistance-stainless"])), "1",
+        exact_ratio(case(results, 5, resistance=results["fz-resistance-stainless"])), "1",
         "exact X/R of the model at the R_t tried for stainless steel",
     )  # fmt: skip
     model_rha = prints(
-        "model_rha", "0.424", exact_ratio(case(audit, 5, resistance=audit["fz-resistance-rha"])),
-        "1", "exact X/R of the model at the R_t of armor",
+        "model_rha", "0.424",
+        exact_ratio(case(results, 5, resistance=results["fz-resistance-rha"])), "1",
+        "exact X/R of the model at the R_t of armor",
     )  # fmt: skip
-    inertia_ = prints("inertia", "1.3128", inertia(audit), "1", "L/D rho_p/rho_t + k_1")
-    z = prints("z", "2.0528", drag(audit), "GPa", "k_t rho_t V^2")
+    inertia_ = prints("inertia", "1.3128", inertia(results), "1", "L/D rho_p/rho_t + k_1")
+    z = prints("z", "2.0528", drag(results), "GPa", "k_t rho_t V^2")
     R_t = exact("a1-resistance") / 10**9
     step = calculated("0.579", 1.3128 / exact("fz-kt") * log(1 + 2.0528 / R_t))
     return conclude(
@@ -660,9 +378,9 @@ def two_resistances(audit: Results) -> Finding:
 
 
 @concerning("circumscribed-length-ratio", "sphere-length-ratio")
-def sphere_equivalent(audit: Results) -> Finding:
+def sphere_equivalent(results: Results) -> Finding:
     """The report's two sentences on the cylinder that stands for the sphere do not fit together."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     around = "circumscribed-length-ratio"
     R_armor, R_steel = exact("fz-resistance-rha"), exact("fz-resistance-stainless")
     # A cylinder with L = d has the sphere's mass if (pi/4) d^3 = (pi/6) D^3. Eq. 16 then gives
@@ -677,11 +395,11 @@ def sphere_equivalent(audit: Results) -> Finding:
         "diameter of a cylinder with L/D = 1 and the sphere's mass, over the sphere's",
     )  # fmt: skip
     equal_rha = prints(
-        "equal_rha", "0.286", derived_ratio(audit, R_armor, around) * narrower, "1",
+        "equal_rha", "0.286", derived_ratio(results, R_armor, around) * narrower, "1",
         "X/R from Eqs. 14 and 15 for that cylinder, R_t of armor",
     )  # fmt: skip
     equal_stainless = prints(
-        "equal_stainless", "0.338", derived_ratio(audit, R_steel, around) * narrower, "1",
+        "equal_stainless", "0.338", derived_ratio(results, R_steel, around) * narrower, "1",
         "X/R from Eqs. 14 and 15 for that cylinder, stainless steel",
     )  # fmt: skip
     heavier = prints(
@@ -689,11 +407,11 @@ def sphere_equivalent(audit: Results) -> Finding:
         "mass of the cylinder with L/D = 1 around the sphere, over the sphere's",
     )  # fmt: skip
     long_rha = prints(
-        "long_rha", "0.328", derived_ratio(audit, R_armor, around), "1",
+        "long_rha", "0.328", derived_ratio(results, R_armor, around), "1",
         "X/R from Eqs. 14 and 15 for the cylinder around the sphere, R_t of armor",
     )  # fmt: skip
     long_stainless = prints(
-        "long_stainless", "0.386", derived_ratio(audit, R_steel, around), "1",
+        "long_stainless", "0.386", derived_ratio(results, R_steel, around), "1",
         "X/R from Eqs. 14 and 15 for the cylinder around the sphere, stainless steel",
     )  # fmt: skip
     steps = (calculated("0.667", Fraction(4, 6)), calculated("0.874", (4 / 6) ** (1 / 3)))

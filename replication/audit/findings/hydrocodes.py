@@ -16,13 +16,13 @@ from replication.audit.results import Results, case, exact_ratio
     "copper-yield",
     "autodyne-ratio",
 )
-def unlike_strengths(audit: Results) -> Finding:
+def unlike_strengths(results: Results) -> Finding:
     """Autodyne was given other strengths than the model."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     strength = exact("autodyne-steel-yield")
     ratios = {
         beta: exact_ratio(
-            case(audit, 5, resistance=float(exact(f"depth-beta-{beta}-beta") * strength))
+            case(results, 5, resistance=float(exact(f"depth-beta-{beta}-beta") * strength))
         )
         for beta in (3, 5)
     }
@@ -63,9 +63,9 @@ def unlike_strengths(audit: Results) -> Finding:
 
 
 @concerning("autodyne-ratio", "autodyne-least-length", "autodyne-diameter")
-def autodyne_cells(audit: Results) -> Finding:
+def autodyne_cells(results: Results) -> Finding:
     """Autodyne's depth may be a few cells of its grid."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     cell_ratio = 2 * exact("autodyne-least-length") / exact("autodyne-diameter")
     cell = prints("cell", "0.2", cell_ratio, "1", "a cell of the least length over the radius")
     cells = prints(
@@ -92,16 +92,16 @@ def autodyne_cells(audit: Results) -> Finding:
     )
 
 
-def contact_velocity(audit: Results) -> float:
+def contact_velocity(results: Results) -> float:
     """Velocity [m/s] of the contact between flat plates of copper and 304 at CTH's velocity.
 
     The pressure on both sides of it is the same, by the shock relations U = c + s u.
     """
     V, rho_p, rho_t = (
-        audit[name] for name in ("cth-velocity", "a1-density", "304-density-kinslow")
+        results[name] for name in ("cth-velocity", "a1-density", "304-density-kinslow")
     )
-    c_p, s_p = audit["copper-hugoniot-speed"], audit["copper-hugoniot-slope"]
-    c_t, s_t = audit["304-hugoniot-speed"], audit["304-hugoniot-slope"]
+    c_p, s_p = results["copper-hugoniot-speed"], results["copper-hugoniot-slope"]
+    c_t, s_t = results["304-hugoniot-speed"], results["304-hugoniot-slope"]
     # rho_t (c_t + s_t u) u = rho_p (c_p + s_p (V - u)) (V - u): square u^2 + linear u = still
     square = rho_t * s_t - rho_p * s_p
     linear = rho_t * c_t + rho_p * (c_p + 2 * s_p * V)
@@ -110,25 +110,25 @@ def contact_velocity(audit: Results) -> float:
 
 
 @concerning("cth-pressure", "cth-velocity", "cth-diameter", "a1-resistance")
-def cth_pressure(audit: Results) -> Finding:
+def cth_pressure(results: Results) -> Finding:
     """CTH's greatest pressure against the model's and that of a plane shock."""
-    text, exact = audit.text, audit.exact
-    u = contact_velocity(audit)
+    text, exact = results.text, results.exact
+    u = contact_velocity(results)
     plane = (
-        audit["304-density-kinslow"]
-        * (audit["304-hugoniot-speed"] + audit["304-hugoniot-slope"] * u)
+        results["304-density-kinslow"]
+        * (results["304-hugoniot-speed"] + results["304-hugoniot-slope"] * u)
         * u
     )
-    stress = {beta: impact_pressure(audit) + R_t for beta, R_t in resistances(audit).items()}
+    stress = {beta: impact_pressure(results) + R_t for beta, R_t in resistances(results).items()}
     shock = prints(
         "shock", "9.7", plane, "GPa", "pressure of a plane impact of copper on 304 at that velocity"
     )
     interface = prints("interface", "248", u, "m/s", "velocity of the contact then")
     times = prints("times", "1.9", plane / exact("cth-pressure"), "1", "that pressure over CTH's")
-    radius, V = audit["cth-diameter"] / 2, audit["cth-velocity"]
+    radius, V = results["cth-diameter"] / 2, results["cth-velocity"]
     # The edge of the contact is at (2 R V t)^(1/2) and moves with R V over that: down to the speed
     # U of the shock in the steel at R V/U.
-    shock_speed = audit["304-hugoniot-speed"] + audit["304-hugoniot-slope"] * u
+    shock_speed = results["304-hugoniot-speed"] + results["304-hugoniot-slope"] * u
     time = prints(
         "time", "0.13", radius * V / (2 * shock_speed**2), "ns",
         "time until the contact's edge is slower than the shock in the steel, R V/(2 U^2)",

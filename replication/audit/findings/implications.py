@@ -10,45 +10,53 @@ from replication.audit.record import Finding
 from replication.audit.results import Results
 
 
-def threshold(audit: Results, R_t: float, Y_p: float) -> float:
+def threshold(results: Results, R_t: float, Y_p: float) -> float:
     """Velocity [m/s] above which the particle penetrates at all, by Eq. 5 with u = 0.
 
     The stress rho_p v^2/2 + Y_p of the particle must exceed the target's resistance R_t [Pa];
     Y_p [Pa] is the particle's strength.
     """
-    return sqrt(2 * (R_t - Y_p) / audit["a1-density"])
+    return sqrt(2 * (R_t - Y_p) / results["a1-density"])
 
 
 @concerning(
     "eq5", "copper-yield", "a1-resistance", "ratio-beta-3", "ratio-beta-5", "observed-ratio"
 )
-def no_penetration(audit: Results) -> Finding:
+def no_penetration(results: Results) -> Finding:
     """By Eq. 5, before it is reduced to a rigid particle, the copper does not penetrate at all."""
-    text = audit.text
-    R_t = {beta: float(value) for beta, value in resistances(audit).items()}
-    Y_p, Y_fast, V = audit["copper-yield"], johnson_cook_copper(audit), audit["a1-initial-velocity"]
-    pressure = audit["a1-density"] * V**2 / 2
-    stress = prints(
-        "stress", "1.20", pressure + Y_p, "GPa", "rho_p V^2/2 + Y_p of the copper at 500 m/s"
+    text = results.text
+    R_t = {beta: float(value) for beta, value in resistances(results).items()}
+    Y_p, Y_fast, V = (
+        results["copper-yield"],
+        johnson_cook_copper(results),
+        results["a1-initial-velocity"],
     )
+    pressure = results["a1-density"] * V**2 / 2
+    stress = prints(
+        "stress", "1.20", pressure + Y_p, "GPa",
+        f"rho_p V^2/2 + Y_p of the copper at {text('a1-initial-velocity')} m/s",
+    )  # fmt: skip
     low = prints("low", "2.1", R_t[3], "GPa", "R_t for beta = 3")
     high = prints("high", "3.5", R_t[5], "GPa", "R_t for beta = 5")
     threshold_3 = prints(
-        "threshold_3", "672", threshold(audit, R_t[3], Y_p), "m/s",
+        "threshold_3", "672", threshold(results, R_t[3], Y_p), "m/s",
         "velocity above which the copper penetrates, beta = 3",
     )  # fmt: skip
     threshold_5 = prints(
-        "threshold_5", "875", threshold(audit, R_t[5], Y_p), "m/s", "the same, beta = 5"
+        "threshold_5", "875", threshold(results, R_t[5], Y_p), "m/s", "the same, beta = 5"
     )
     fast = prints(
         "fast", "536", Y_fast, "MPa",
-        "Johnson-Cook flow stress of copper at strain 1 and 10^7 per second",
+        "Johnson-Cook flow stress of copper at strain 1 and "
+        f"{results.ledger.claims['strain-rate'].text} per second",
     )  # fmt: skip
     fast_3 = prints(
-        "fast_3", "593", threshold(audit, R_t[3], Y_fast), "m/s",
+        "fast_3", "593", threshold(results, R_t[3], Y_fast), "m/s",
         "velocity above which copper of that strength penetrates, beta = 3",
     )  # fmt: skip
-    fast_5 = prints("fast_5", "816", threshold(audit, R_t[5], Y_fast), "m/s", "the same, beta = 5")
+    fast_5 = prints(
+        "fast_5", "816", threshold(results, R_t[5], Y_fast), "m/s", "the same, beta = 5"
+    )
     steps = (
         calculated("1.20", 8.9 * 0.5**2 / 2 + 0.09),
         calculated("672", sqrt(2 * (2.1 - 0.09) * 10**9 / 8900)),
@@ -81,11 +89,11 @@ def no_penetration(audit: Results) -> Finding:
 
 
 @concerning("volume-ratio", "a1-resistance", "a1-density", "a1-initial-velocity")
-def energy_balance(audit: Results) -> Finding:
+def energy_balance(results: Results) -> Finding:
     """The observed crater takes a small part of the particle's energy."""
-    text = audit.text
-    energy = audit["a1-density"] * audit["a1-initial-velocity"] ** 2 / 2
-    work = {b: audit["volume-ratio"] * float(R_t) for b, R_t in resistances(audit).items()}
+    text = results.text
+    energy = results["a1-density"] * results["a1-initial-velocity"] ** 2 / 2
+    work = {b: results["volume-ratio"] * float(R_t) for b, R_t in resistances(results).items()}
     kinetic = prints(
         "kinetic", "1.11", energy, "GPa", "kinetic energy over the particle's volume, rho_p V^2/2"
     )
@@ -94,13 +102,13 @@ def energy_balance(audit: Results) -> Finding:
         "share of it that a crater of the observed CV/PV takes at R_t, beta = 3",
     )  # fmt: skip
     share_5 = prints("share_5", "19", work[5] / energy, "percent", "the same, beta = 5")
-    smallest, largest = map(float, audit.ledger.claims["volume-ratio"].target().ends)
+    smallest, largest = map(float, results.ledger.claims["volume-ratio"].target().ends)
     least = prints(
-        "least", "10", smallest * float(resistances(audit)[3]) / energy, "percent",
+        "least", "10", smallest * float(resistances(results)[3]) / energy, "percent",
         "the least share with any CV/PV that prints so, beta = 3",
     )  # fmt: skip
     most = prints(
-        "most", "20", largest * float(resistances(audit)[5]) / energy, "percent",
+        "most", "20", largest * float(resistances(results)[5]) / energy, "percent",
         "the greatest, beta = 5",
     )  # fmt: skip
     steps = (
@@ -131,19 +139,19 @@ def energy_balance(audit: Results) -> Finding:
 @concerning(
     "strength-clear", "strength-feathery", "brinell-beta", "depth-beta-5-beta", "flow-stress"
 )
-def hardness_again(audit: Results) -> Finding:
+def hardness_again(results: Results) -> Finding:
     """Beta = 3 turns the strength from hardness back into a hardness."""
-    text = audit.text
-    three = audit.exact("brinell-beta")
-    clear, feathery = (audit.exact(f"strength-{grain}") for grain in ("clear", "feathery"))
-    R_5 = resistances(audit)[5]
+    text = results.text
+    three = results.exact("brinell-beta")
+    clear, feathery = (results.exact(f"strength-{grain}") for grain in ("clear", "feathery"))
+    R_5 = resistances(results)[5]
     least = prints(
         "least", "2.0", three * clear, "GPa", "three times the tensile strength of clear grains"
     )
     greatest = prints(
         "greatest", "2.3", three * feathery, "GPa", "three times that of feathery grains"
     )
-    of_304, of_steels = brinell_factors(audit.ledger)
+    of_304, of_steels = brinell_factors(results.ledger)
     factor_304 = prints(
         "factor_304", "2.39", of_304, "1", "hardness over tensile strength, a sheet of 304"
     )
@@ -198,18 +206,18 @@ def hardness_again(audit: Results) -> Finding:
 
 
 @concerning("velocity-704", "ratio-beta-5", "depth-beta-5-beta")
-def half_buried(audit: Results) -> Finding:
+def half_buried(results: Results) -> Finding:
     """At the fourth velocity of the experiments the model buries the particle by half."""
-    text = audit.text
-    rho_p, rho_t = audit["a1-density"], audit[DENSITY]
-    R_t = float(resistances(audit)[5])
+    text = results.text
+    rho_p, rho_t = results["a1-density"], results[DENSITY]
+    R_t = float(resistances(results)[5])
     # y = X/R = 1 at c = (4 rho_p/3 rho_t) ln(1 + rho_t V^2/2R_t) = 2/3
     at_radius = sqrt(2 * R_t / rho_t * expm1(rho_t / (2 * rho_p)))
     velocity = prints(
         "velocity", "703", at_radius, "m/s", "impact velocity at which the exact X is R, beta = 5"
     )
     p = prints("p", "0.554", expm1(rho_t / (2 * rho_p)), "1", "rho_t V^2/2R_t at which X is R")
-    density = audit["carbon-steel-density"]
+    density = results["carbon-steel-density"]
     steps = (
         calculated("0.667", 4 * 8900 / (3 * density) * log(1.5543)),
         calculated("703", sqrt(2 * 0.5543 * 3.5e9 / density)),

@@ -7,19 +7,19 @@ from reference.units import to_si
 from replication.audit.findings.evidence import calculated, concerning, conclude, prints, proves
 from replication.audit.inference import DENSITY
 from replication.audit.record import Finding
-from replication.audit.results import Results, case, exact_ratio
-from replication.models.crater import crater_depth
+from replication.audit.results import Results, case, constant_pressure_ratio, exact_ratio
+from replication.text import number
 
 
-def resistances(audit: Results) -> dict[int, Fraction]:
+def resistances(results: Results) -> dict[int, Fraction]:
     """R_t = beta Y_t [Pa] for the two beta of the report's model (Eq. 7)."""
-    Y_t = audit.exact("flow-stress")
-    return {beta: audit.exact(f"depth-beta-{beta}-beta") * Y_t for beta in (3, 5)}
+    Y_t = results.exact("flow-stress")
+    return {beta: results.exact(f"depth-beta-{beta}-beta") * Y_t for beta in (3, 5)}
 
 
-def impact_pressure(audit: Results) -> Fraction:
+def impact_pressure(results: Results) -> Fraction:
     """rho_t V^2/2 [Pa] at the impact."""
-    return audit.exact(DENSITY) * audit.exact("a1-initial-velocity") ** 2 / 2
+    return results.exact(DENSITY) * results.exact("a1-initial-velocity") ** 2 / 2
 
 
 @concerning(
@@ -30,28 +30,31 @@ def impact_pressure(audit: Results) -> Fraction:
     "beta-range-greatest",
     "depth-beta-5-beta",
 )
-def beta_and_flow_stress(audit: Results) -> Finding:
+def beta_and_flow_stress(results: Results) -> Finding:
     """Beta was computed for one flow stress and multiplied by another."""
-    text, Y_t = audit.text, audit.exact("flow-stress")
-    cube_at_grains = 2 * audit.exact("elastic-modulus") / (3 * Y_t)
+    text, Y_t = results.text, results.exact("flow-stress")
+    grains = text("flow-stress")
+    cube_at_grains = 2 * results.exact("elastic-modulus") / (3 * Y_t)
     alpha_at_grains = cbrt(cube_at_grains)
     beta_at_grains = 7 / 3 * log(alpha_at_grains)
     resistance_at_grains = beta_at_grains * Y_t
-    alpha = prints("alpha", "5.75", alpha_at_grains, "1", "alpha at 700 MPa")
-    beta = prints("beta", "4.08", beta_at_grains, "1", "beta at 700 MPa")
+    alpha = prints("alpha", "5.75", alpha_at_grains, "1", f"alpha at {grains} MPa")
+    beta = prints("beta", "4.08", beta_at_grains, "1", f"beta at {grains} MPa")
     resistance = prints(
-        "resistance", "2.86", resistance_at_grains, "GPa", "R_t with that beta at 700 MPa"
+        "resistance", "2.86", resistance_at_grains, "GPa", f"R_t with that beta at {grains} MPa"
     )
     ratio = prints(
-        "ratio", "0.776", exact_ratio(case(audit, 5, resistance=float(resistance_at_grains))), "1",
-        "exact X/R with that R_t",
+        "ratio", "0.776", exact_ratio(case(results, 5, resistance=float(resistance_at_grains))),
+        "1", "exact X/R with that R_t",
     )  # fmt: skip
     cavity_bulk = prints(
-        "cavity_bulk", "4.95", 2 / 3 + 2 * log(audit.computed("walker-anderson-alpha")), "1",
-        "pressure of Hill's spherical cavity over flow stress, 215 MPa",
+        "cavity_bulk", "4.95", 2 / 3 + 2 * log(results.computed("walker-anderson-alpha")), "1",
+        f"pressure of Hill's spherical cavity over flow stress, {text('yield-strength')} MPa",
     )  # fmt: skip
-    cavity = prints("cavity", "4.17", 2 / 3 + 2 * log(alpha_at_grains), "1", "the same at 700 MPa")
-    cube = prints("cube", "190.5", cube_at_grains, "1", "alpha^3 at 700 MPa")
+    cavity = prints(
+        "cavity", "4.17", 2 / 3 + 2 * log(alpha_at_grains), "1", f"the same at {grains} MPa"
+    )
+    cube = prints("cube", "190.5", cube_at_grains, "1", f"alpha^3 at {grains} MPa")
     steps = (calculated("190.5", cube_at_grains), calculated("4.08", 7 / 9 * log(190.48)))
     return conclude(
         "beta-and-flow-stress",
@@ -79,13 +82,12 @@ def beta_and_flow_stress(audit: Results) -> Finding:
 
 
 @concerning("ratio-beta-3", "ratio-beta-5", "observed-ratio")
-def inertia_term(audit: Results) -> Finding:
+def inertia_term(results: Results) -> Finding:
     """What the drag of Eq. 13 does to the depth."""
-    text = audit.text
-    energy = audit.exact("a1-density") * audit.exact("a1-initial-velocity") ** 2 / 2
-    works = {beta: float(energy / R_t) for beta, R_t in resistances(audit).items()}
-    without = {beta: crater_depth(ratio) for beta, ratio in works.items()}
-    with_drag = {beta: exact_ratio(case(audit, beta)) for beta in (3, 5)}
+    text = results.text
+    energy = results.exact("a1-density") * results.exact("a1-initial-velocity") ** 2 / 2
+    without = {beta: constant_pressure_ratio(case(results, beta)) for beta in (3, 5)}
+    with_drag = {beta: exact_ratio(case(results, beta)) for beta in (3, 5)}
     pressed_5 = prints(
         "pressed_5", "0.752", without[5], "1", "X/R at the constant pressure R_t, beta = 5"
     )
@@ -99,7 +101,10 @@ def inertia_term(audit: Results) -> Finding:
     price_3 = prints(
         "price_3", "12", 1 - with_drag[3] / without[3], "percent", "the same, beta = 3"
     )
-    work = prints("work", "0.318", works[5], "1", "CV/PV at the constant pressure R_t, beta = 5")
+    work = prints(
+        "work", "0.318", energy / resistances(results)[5], "1",
+        "CV/PV at the constant pressure R_t, beta = 5",
+    )  # fmt: skip
     steps = (
         calculated("0.3179", Fraction(8900 * 500**2, 2) / Fraction("3.5e9")),
         calculated("0.318", 0.7521**2 * (3 - 0.7521) / 4),
@@ -124,11 +129,11 @@ def inertia_term(audit: Results) -> Finding:
 
 
 @concerning("observed-ratio", "beta-range-greatest", "depth-beta-5-beta", "flow-stress")
-def observed_beta(audit: Results) -> Finding:
+def observed_beta(results: Results) -> Finding:
     """Which beta the observed depth would need."""
-    text, exact = audit.text, audit.exact
-    observed = exact("observed-ratio")
-    least_ratio, greatest_ratio = audit.ledger.claims["observed-ratio"].target().ends
+    text, exact = results.text, results.exact
+    observed, y = exact("observed-ratio"), text("observed-ratio")
+    least_ratio, greatest_ratio = results.ledger.claims["observed-ratio"].target().ends
     Y_t, V = exact("flow-stress"), exact("a1-initial-velocity")
 
     def pressure_ratio(y: Fraction) -> float:
@@ -136,34 +141,35 @@ def observed_beta(audit: Results) -> Finding:
         return expm1(y**2 * (3 - y) / 4 * exact(DENSITY) / exact("a1-density"))
 
     def beta_for(y: Fraction) -> float:
-        return float(impact_pressure(audit) / Y_t) / pressure_ratio(y)
+        return float(impact_pressure(results) / Y_t) / pressure_ratio(y)
 
-    beta = prints("beta", "25", beta_for(observed), "1", "beta at which the exact X/R is 0.3")
+    beta = prints("beta", "25", beta_for(observed), "1", f"beta at which the exact X/R is {y}")
     resistance = prints(
-        "resistance", "18", beta_for(observed) * Y_t, "GPa", "R_t at which the exact X/R is 0.3"
+        "resistance", "18", beta_for(observed) * Y_t, "GPa", f"R_t at which the exact X/R is {y}"
     )
     beta_least = prints(
-        "beta_least", "19", beta_for(greatest_ratio), "1", "beta at which the exact X/R is 0.35"
-    )
+        "beta_least", "19", beta_for(greatest_ratio), "1",
+        f"beta at which the exact X/R is {number(greatest_ratio)}",
+    )  # fmt: skip
     beta_greatest = prints(
-        "beta_greatest", "36", beta_for(least_ratio), "1", "beta at which the exact X/R is 0.25"
-    )
+        "beta_greatest", "36", beta_for(least_ratio), "1",
+        f"beta at which the exact X/R is {number(least_ratio)}",
+    )  # fmt: skip
     velocity = prints(
         "velocity", "222", V * sqrt(exact("depth-beta-5-beta") / beta_for(observed)), "m/s",
-        "impact velocity at which the exact X/R is 0.3, beta = 5",
+        f"impact velocity at which the exact X/R is {y}, beta = 5",
     )  # fmt: skip
     p = prints(
         "p", "0.0550", pressure_ratio(observed), "1",
-        "rho_t V^2 / 2 R_t at which the exact X/R is 0.3",
+        f"rho_t V^2 / 2 R_t at which the exact X/R is {y}",
     )  # fmt: skip
-    left = prints("left", "0.081", observed**2 - observed**3 / 3, "1", "y^2 - y^3/3 at y = 0.3")
+    left = prints("left", "0.081", observed**2 - observed**3 / 3, "1", f"y^2 - y^3/3 at y = {y}")
     density = exact("carbon-steel-density")
     steps = (
         calculated("0.081", observed**2 - observed**3 / 3),
         calculated("0.081", 4 * 8900 / (3 * density) * log(1 + 0.0550)),
         calculated("18", 0.98125 / 0.0550),
     )
-    y = text("observed-ratio")
     return conclude(
         "observed-beta",
         "method",
@@ -184,34 +190,37 @@ def observed_beta(audit: Results) -> Finding:
     )
 
 
-def johnson_cook_copper(audit: Results) -> float:
+def johnson_cook_copper(results: Results) -> float:
     """Johnson and Cook's flow stress of copper [Pa] at a strain of one, unheated.
 
     The strain rate is that which the report estimates, 10^7 per second, far beyond the law's fit.
     """
-    at_strain_1 = audit["copper-johnson-cook"] + audit["copper-johnson-cook-hardening"]
-    return at_strain_1 * (1 + audit["copper-johnson-cook-rate"] * log(audit["strain-rate"]))
+    at_strain_1 = results["copper-johnson-cook"] + results["copper-johnson-cook-hardening"]
+    return at_strain_1 * (1 + results["copper-johnson-cook-rate"] * log(results["strain-rate"]))
 
 
 @concerning("copper-yield", "copper-yield-bound", "a1-resistance", "eq6")
-def rigid_strength(audit: Results) -> Finding:
+def rigid_strength(results: Results) -> Finding:
     """A rigid particle needs far more strength than the copper has."""
-    text, exact = audit.text, audit.exact
-    Y_p = exact("copper-yield")
-    stress = {beta: impact_pressure(audit) + R_t for beta, R_t in resistances(audit).items()}
-    johnson_cook = johnson_cook_copper(audit)
-    sigma_5 = prints("sigma_5", "4.48", stress[5], "GPa", "Sigma at 500 m/s, beta = 5")
-    sigma_3 = prints("sigma_3", "3.08", stress[3], "GPa", "Sigma at 500 m/s, beta = 3")
+    text, exact = results.text, results.exact
+    Y_p, V = exact("copper-yield"), text("a1-initial-velocity")
+    stress = {beta: impact_pressure(results) + R_t for beta, R_t in resistances(results).items()}
+    johnson_cook = johnson_cook_copper(results)
+    rate = results.ledger.claims["strain-rate"].text
+    sigma_5 = prints("sigma_5", "4.48", stress[5], "GPa", f"Sigma at {V} m/s, beta = 5")
+    sigma_3 = prints("sigma_3", "3.08", stress[3], "GPa", f"Sigma at {V} m/s, beta = 3")
     multiple_5 = prints(
         "multiple_5", "50", stress[5] / Y_p, "1", "Sigma over the copper's yield strength, beta = 5"
     )
     multiple_3 = prints(
         "multiple_3", "34", stress[3] / Y_p, "1", "Sigma over the copper's yield strength, beta = 3"
     )
-    pressure = prints("pressure", "0.981", impact_pressure(audit), "GPa", "rho_t V^2/2 at 500 m/s")
+    pressure = prints(
+        "pressure", "0.981", impact_pressure(results), "GPa", f"rho_t V^2/2 at {V} m/s"
+    )
     fast = prints(
         "fast", "536", johnson_cook, "MPa",
-        "Johnson-Cook flow stress of copper at strain 1 and 10^7 per second",
+        f"Johnson-Cook flow stress of copper at strain 1 and {rate} per second",
     )  # fmt: skip
     short_5 = prints("short_5", "8", stress[5] / johnson_cook, "1", "Sigma over that, beta = 5")
     short_3 = prints("short_3", "6", stress[3] / johnson_cook, "1", "Sigma over that, beta = 3")
@@ -252,9 +261,9 @@ def rigid_strength(audit: Results) -> Finding:
     "strength-multiple",
     "yield-strength",
 )
-def strengths(audit: Results) -> Finding:
+def strengths(results: Results) -> Finding:
     """Y_t stands for different kinds of strength."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     Y_t, S_clear, S_feathery = (
         exact(name) for name in ("flow-stress", "strength-clear", "strength-feathery")
     )

@@ -1,17 +1,17 @@
-"""Findings on the report's spreadsheet: what Table A-1 admits, and how its scheme can be read."""
+"""Findings on the report's spreadsheet: how its scheme can be read, and what its columns hold."""
 
 import math
+from collections.abc import Mapping
 from fractions import Fraction
+from typing import NamedTuple
 
 from reference.enclosure import find_solutions
-from reference.ledger import Convention
-from reference.printed import Rounding
+from reference.printed import Rounding, decimal_text
 from reference.scheme import Scheme
+from reference.units import to_si
 from replication.audit.assessment import Verdict
 from replication.audit.explain import SHEET_BUDGET
 from replication.audit.findings.evidence import (
-    at_least,
-    at_most,
     calculated,
     concerning,
     conclude,
@@ -19,193 +19,13 @@ from replication.audit.findings.evidence import (
     prints,
     proves,
 )
-from replication.audit.inference import DENSITY, Admission
-from replication.audit.record import Finding
-from replication.audit.results import Results, case
+from replication.audit.inference import DENSITY
+from replication.audit.record import Evidence, Finding
+from replication.audit.results import Results, case, density_taken
 from replication.models import depth, sheet
 
 
-@concerning(
-    "a1-deceleration-1",
-    "a1-deceleration-2",
-    "a1-deceleration-3",
-    "a1-deceleration-4",
-    "a1-velocity-final-1",
-    "a1-velocity-final-2",
-    "a1-velocity-final-3",
-    "a1-velocity-final-4",
-    "a1-mass",
-    "depth-beta-3",
-    "depth-beta-5",
-)
-def target_density(audit: Results) -> Finding:
-    """The report never prints the target density that it computed with."""
-    text, judge, sources = audit.text, audit.judge, audit.ledger.sources
-    plain, middle = judge.inference(DENSITY), judge.inference(DENSITY, scheme=Scheme.CENTERED)
-    cut = judge.inference(DENSITY, rounding=Rounding.CUT)
-    header_rounded = judge.rounded(DENSITY, Convention()).ends
-    all_rounded = judge.rounded(DENSITY, Convention(choices_exact=False)).ends
-    unit = "kg/m^3"
-
-    def admits(source: str, admission: Admission) -> bool:
-        return judge.admission(sources[source]) is admission
-
-    least = prints(
-        "least", "7839.6", plain.inner.ends[0], unit,
-        "least density that the table admits, header as printed but the sphere's mass",
-    )  # fmt: skip
-    greatest = prints(
-        "greatest", "7863.3", plain.inner.ends[1], unit,
-        "greatest density that the table admits, header as printed but the sphere's mass",
-    )  # fmt: skip
-    centered_least = prints(
-        "centered_least", "7842.5", middle.inner.ends[0], unit,
-        "least density, drag at the middle velocity",
-    )  # fmt: skip
-    centered_greatest = prints(
-        "centered_greatest", "7864.3", middle.inner.ends[1], unit,
-        "greatest density, drag at the middle velocity",
-    )  # fmt: skip
-    possible_least = at_least(
-        "possible_least", "7759", header_rounded[0], unit, "proven lower bound, header as rounded"
-    )
-    possible_greatest = at_most(
-        "possible_greatest", "7925", header_rounded[1], unit,
-        "proven upper bound, header as rounded",
-    )  # fmt: skip
-    textbook = prints(
-        "textbook", "7861", audit.exact("304-density-textbook"), unit,
-        "what the textbook's table prints for 304",
-    )  # fmt: skip
-    named = proves(
-        "named", admits("304-density-textbook", Admission.ADMITTED),
-        "what the textbook's table prints for 304 is admitted",
-    )  # fmt: skip
-    centered_mass_greatest = prints(
-        "centered_mass_greatest", "7849.84", middle.with_mass.ends[1], unit,
-        "greatest density with the printed mass, drag at the middle velocity",
-    )  # fmt: skip
-    cut_least = prints(
-        "cut_least", "7887", cut.inner.ends[0], unit,
-        "least density that gives all cells but these, digits cut off",
-    )  # fmt: skip
-    cut_greatest = prints(
-        "cut_greatest", "7897", cut.inner.ends[1], unit,
-        "greatest density that gives all cells but these, digits cut off",
-    )  # fmt: skip
-    cut_odd = equals(
-        "cut_odd", "2", len(cut.odd), "1",
-        "cells that no density gives together with the others, digits cut off",
-    )  # fmt: skip
-    mass_greatest = prints(
-        "mass_greatest", "7848.86", plain.with_mass.ends[1], unit,
-        "greatest density with the printed mass",
-    )  # fmt: skip
-    assumed = equals(
-        "assumed", "7850", audit.exact(DENSITY), unit, "density with which the audit computes"
-    )
-    edge = equals(
-        "edge", "3.115E+08", audit.ledger.claims["a1-deceleration-1"].target().ends[1], "m/s^2",
-        "greatest deceleration that prints like that of row 1",
-    )  # fmt: skip
-    carbon = proves(
-        "carbon", admits("carbon-steel-density", Admission.ADMITTED),
-        "7850 is admitted, header as printed but the sphere's mass",
-    )  # fmt: skip
-    rounded_least = at_least(
-        "rounded_least", "7686", all_rounded[0], unit,
-        "proven lower bound, header and choices as rounded",
-    )  # fmt: skip
-    rounded_greatest = at_most(
-        "rounded_greatest", "7999", all_rounded[1], unit,
-        "proven upper bound, header and choices as rounded",
-    )  # fmt: skip
-    excluded = proves(
-        "excluded",
-        admits("304-density-sheet", Admission.EXCLUDED)
-        and admits("304-density-mill", Admission.EXCLUDED),
-        "0.289 lb/in^3 and 8.03 g/cm^3 are proven impossible, header and choices as rounded",
-    )
-    chosen = proves(
-        "chosen", admits("304-density-793", Admission.CHOICES_ROUNDED),
-        "7.93 g/cm^3 is possible only if the velocity or the step is rounded, too; drag at the "
-        "initial velocity",
-    )  # fmt: skip
-    printed_for_304 = [source for name, source in sources.items() if "304-density-" in name]
-    admissions = [judge.admission(source) for source in printed_for_304]
-    numbers_304 = equals(
-        "numbers_304", "10", len(printed_for_304), "1",
-        "densities of 304 that the cited sources print",
-    )  # fmt: skip
-    as_rounded = equals(
-        "as_rounded", "2", admissions.count(Admission.AS_ROUNDED), "1",
-        "of them admitted as numbers of one or two digits: 7.9 and 8 g/cm^3",
-    )  # fmt: skip
-    with_rounded_header = equals(
-        "with_rounded_header", "4", admissions.count(Admission.HEADER_ROUNDED), "1",
-        "of them possible only with a rounded header: 7896 kg/m^3, 0.285, 0.286 and 0.29 lb/in^3",
-    )  # fmt: skip
-    depths = proves(
-        "depths",
-        {audit.verdict("depth-beta-3"), audit.verdict("depth-beta-5")} == {Verdict.REPRODUCED},
-        "each admitted density gives both final depths",
-    )
-    mass = prints(
-        "mass", "4.962E-11", audit.computed("a1-mass"), "kg",
-        "mass of the sphere, 4/3 pi R^3 rho_p",
-    )  # fmt: skip
-    all_cells = proves("all", not plain.odd, "one density serves all eight cells")
-    steps = (
-        calculated("1.0975", Fraction("22") * Fraction("0.05") - Fraction("0.05") ** 2),
-        calculated("4.483", 3.115 * 4.962 / (3.14159 * 1.0975)),
-        calculated("7.863", (Fraction("4.4829") - Fraction("3.5")) / Fraction("0.125")),
-    )
-    return conclude(
-        "target-density",
-        "unstated input",
-        title="The target density is printed nowhere; with the sphere's mass Table A-1 admits "
-        f"{least} to {greatest} kg/m^3",
-        statement="With the header of Table A-1 exactly as printed, but the sphere's mass for M, "
-        f"its accelerations and velocities come out for {least} to {greatest} kg/m^3, and each of "
-        "these gives both final depths, too. (With the drag at the middle velocity they come out "
-        f"for {centered_least} to {centered_greatest}, the depths for a part of these.) The usual "
-        f"{text('carbon-steel-density')} of carbon steel lies inside, and so does "
-        f"{text('304-density-textbook')} lb/in^3 ({textbook}), which a textbook's table prints for "
-        "304 stainless steel, the target that the report names. The cited sources print "
-        f"{numbers_304} densities for 304, {text('304-density-textbook')} lb/in^3 to "
-        f"{text('304-density-mill')} g/cm^3: this one lies inside, {as_rounded} more do as numbers "
-        f"of one or two digits, and {with_rounded_header} only if the header is rounded, too. Now "
-        "let radius, particle density and resistance (then not beta times the flow stress) be "
-        "rounded, with the sphere's mass and the drag at the initial velocity. With "
-        f"{text('a1-initial-velocity')} m/s and {text('a-step')} ns exact no density outside "
-        f"{possible_least} to {possible_greatest} is possible, so {text('304-density-793')} g/cm^3 "
-        f"is excluded. With these two rounded as well, none outside {rounded_least} to "
-        f"{rounded_greatest} is (bounds that are proven, but wider than need be): "
-        f"{text('304-density-793')} is possible, {text('304-density-sheet')} lb/in^3 and "
-        f"{text('304-density-mill')} g/cm^3 are still excluded. With another mass than the "
-        "sphere's more are possible. With the header exactly as printed, its mass included, none "
-        f"above {mass_greatest} is ({centered_mass_greatest} with the drag at the middle "
-        f"velocity), so not {assumed}. Were the digits of the table cut off instead of rounded, "
-        f"its accelerations would ask for {cut_least} to {cut_greatest}, but {cut_odd} of its "
-        f"velocities would come out for no density. The audit computes with {assumed}; what it "
-        "calls reproduced holds for all densities that the table admits.",
-        by_hand=f"Row 1: a = (rho_t V^2/2 + R_t) pi (D x - x^2)/M must stay below {edge} m/s^2. x "
-        f"= {text('a1-depth-1')} m gives D x - x^2 = 22 * 0.05 - 0.05^2 = {steps[0]} square "
-        f"micrometres, M = {mass} kg, so rho_t V^2/2 + R_t is below 3.115 * 4.962/(3.14159 * "
-        f"1.0975) = {steps[1]} GPa, and rho_t below (4.4829 - 3.5)/0.125 = {steps[2]} g/cm^3.",
-        settle="The density cell of the original spreadsheet.",
-        status="open",
-        evidence=(
-            least, greatest, centered_least, centered_greatest, possible_least, possible_greatest,
-            textbook, named, centered_mass_greatest, cut_least, cut_greatest, cut_odd,
-            mass_greatest, assumed, edge, carbon, rounded_least, rounded_greatest, excluded, chosen,
-            numbers_304, as_rounded, with_rounded_header, depths, mass, all_cells,
-        ),
-        steps=steps,
-    )  # fmt: skip
-
-
-def observed_order(audit: Results, scheme: Scheme) -> float:
+def observed_order(results: Results, scheme: Scheme) -> float:
     """Return the observed order of the error at one instant, from two time steps, for beta = 5.
 
     At 10 ns the particle is still fast, so that the stop rule has no influence. The steps are the
@@ -213,7 +33,7 @@ def observed_order(audit: Results, scheme: Scheme) -> float:
     """
     instant, errors = 10e-9, []
     for parts in (1, 2):
-        impact = case(audit, 5, step=audit["a-step"] / parts)
+        impact = case(results, 5, step=results["a-step"] / parts)
         row = sheet.run(impact, scheme).rows[round(instant / impact.step)]
         assert row.velocity_final is not None
         # The row's depth is that half a step before its final velocity.
@@ -222,48 +42,53 @@ def observed_order(audit: Results, scheme: Scheme) -> float:
     return math.log2(errors[0] / errors[1])
 
 
-def first_difference(audit: Results) -> int:
+def first_difference(results: Results) -> int:
     """Return the first row in which the schemes' decelerations differ in three digits."""
-    plain, middle = (sheet.run(case(audit, 5), scheme).rows for scheme in Scheme)
+    plain, middle = (sheet.run(case(results, 5), scheme).rows for scheme in Scheme)
     for number, (row, row_middle) in enumerate(zip(plain, middle, strict=False)):
         if f"{row.deceleration:.2E}" != f"{row_middle.deceleration:.2E}":
             return number
     raise ValueError("the two schemes print the same decelerations in every row")
 
 
-def least_middle_density(audit: Results) -> Fraction:
+def least_middle_density(results: Results) -> Fraction:
     """Return the least target density with which drag at the middle velocity gives that depth."""
-    claim = audit.ledger.claims["depth-beta-5"]
-    printed = {name: audit.ledger.value(name) for name in claim.stated}
-    function = audit.ledger.function(claim, scheme=Scheme.CENTERED)
-    admitted = audit.judge.inference(DENSITY, scheme=Scheme.CENTERED).outer.ends
+    claim = results.ledger.claims["depth-beta-5"]
+    printed = {name: results.ledger.value(name) for name in claim.stated}
+    function = results.ledger.function(claim, scheme=Scheme.CENTERED)
+    admitted = results.judge.inference(DENSITY, scheme=Scheme.CENTERED).outer.ends
     solutions = find_solutions(function, DENSITY, admitted, claim.target(), SHEET_BUDGET, printed)
     return solutions.outer[0][0]
 
 
-def depth_by_sheet(audit: Results, beta: int, scheme: Scheme, step: str = "a-step") -> float:
+def depth_by_sheet(results: Results, beta: int, scheme: Scheme, step: str = "a-step") -> float:
     """Return the sheet's final depth [m] for a beta of the report; the claim gives the step."""
-    return sheet.run(case(audit, beta, step=audit[step]), scheme).final_depth
+    return sheet.run(case(results, beta, step=results[step]), scheme).final_depth
 
 
-@concerning(
-    "depth-beta-3", "depth-beta-5", "coarse-step-remark", "a-half-step", "a-step", "coarse-step"
-)
-def two_schemes(audit: Results) -> Finding:
-    """The appendix does not say at which velocity of a step the drag is taken."""
-    text = audit.text
-    plain, middle = Scheme.PUBLISHED, Scheme.CENTERED
-    order_plain = prints(
-        "order_plain", "1.0", observed_order(audit, plain), "1",
-        "observed order of the time-step error, drag at the initial velocity, 0.2 to 0.1 ns",
+class OrderNumbers(NamedTuple):
+    """How accurate the two schemes are, and whether both give Table A-1."""
+
+    plain: Evidence
+    middle: Evidence
+    table: Evidence
+
+
+def orders_of_schemes(results: Results) -> OrderNumbers:
+    """Return the observed order of both schemes, and whether both give every cell of Table A-1."""
+    half = decimal_text(results.exact("a-step") / 2 / to_si("ns"))
+    steps = f"{results.text('a-step')} to {half} ns"
+    plain = prints(
+        "order_plain", "1.0", observed_order(results, Scheme.PUBLISHED), "1",
+        f"observed order of the time-step error, drag at the initial velocity, {steps}",
     )  # fmt: skip
-    order_middle = prints(
-        "order_middle", "2.0", observed_order(audit, middle), "1",
-        "observed order of the time-step error, drag at the middle velocity, 0.2 to 0.1 ns",
+    middle = prints(
+        "order_middle", "2.0", observed_order(results, Scheme.CENTERED), "1",
+        f"observed order of the time-step error, drag at the middle velocity, {steps}",
     )  # fmt: skip
     cells = [
         claim
-        for claim in audit.ledger.claims.values()
+        for claim in results.ledger.claims.values()
         if claim.is_computed and claim.id.startswith(("a1-deceleration-", "a1-velocity-"))
     ]
     table = proves(
@@ -271,48 +96,96 @@ def two_schemes(audit: Results) -> Finding:
         {
             judgement.verdict
             for claim in cells
-            for reading in audit.judge.assess(claim).readings
+            for reading in results.judge.assess(claim).readings
             for judgement in reading.judgements
             if judgement.convention.rounding is Rounding.AWAY
         }
         == {Verdict.REPRODUCED},
         "every cell of Table A-1 is reproduced by both",
     )
-    fine = {(b, s): depth_by_sheet(audit, b, s) for b in (3, 5) for s in Scheme}
-    coarse = {(b, s): depth_by_sheet(audit, b, s, "coarse-step") for b in (3, 5) for s in Scheme}
-    rest = {b: depth.final_depth(**case(audit, b).motion) for b in (3, 5)}
+    return OrderNumbers(plain, middle, table)
+
+
+Depths = Mapping[tuple[int, Scheme], float]
+"""The sheet's final depth [m] by beta and scheme."""
+
+
+def depths_by_sheet(results: Results, step: str) -> Depths:
+    """Return the final depths of both cases by both schemes; the claim gives the step."""
+    return {(b, s): depth_by_sheet(results, b, s, step) for b in (3, 5) for s in Scheme}
+
+
+class DepthNumbers(NamedTuple):
+    """The sheet's final depths by scheme, time step and beta."""
+
+    plain_fine_3: Evidence
+    plain_fine_5: Evidence
+    plain_coarse_3: Evidence
+    plain_coarse_5: Evidence
+    middle_fine_3: Evidence
+    middle_fine_5: Evidence
+    middle_coarse_3: Evidence
+    middle_coarse_5: Evidence
+
+
+def depths_of_schemes(results: Results, fine: Depths, coarse: Depths) -> DepthNumbers:
+    """Return the final depths with a fine and a coarse time step."""
+    fine_step, coarse_step = results.text("a-step"), results.text("coarse-step")
+    plain, middle = Scheme.PUBLISHED, Scheme.CENTERED
     plain_fine_3 = prints(
         "plain_fine_3", "10.031", fine[3, plain], "um",
-        "final depth at 0.2 ns, beta = 3, drag at the initial velocity",
+        f"final depth at {fine_step} ns, beta = 3, drag at the initial velocity",
     )  # fmt: skip
     plain_fine_5 = prints("plain_fine_5", "7.6696", fine[5, plain], "um", "the same, beta = 5")
     plain_coarse_3 = prints(
         "plain_coarse_3", "10.017", coarse[3, plain], "um",
-        "final depth at 0.5 ns, beta = 3, drag at the initial velocity",
+        f"final depth at {coarse_step} ns, beta = 3, drag at the initial velocity",
     )  # fmt: skip
     plain_coarse_5 = prints(
         "plain_coarse_5", "7.6603", coarse[5, plain], "um", "the same, beta = 5"
     )
     middle_fine_3 = prints(
         "middle_fine_3", "10.039", fine[3, middle], "um",
-        "final depth at 0.2 ns, beta = 3, drag at the middle velocity",
+        f"final depth at {fine_step} ns, beta = 3, drag at the middle velocity",
     )  # fmt: skip
     middle_fine_5 = prints("middle_fine_5", "7.6749", fine[5, middle], "um", "the same, beta = 5")
     middle_coarse_3 = prints(
         "middle_coarse_3", "10.039", coarse[3, middle], "um",
-        "final depth at 0.5 ns, beta = 3, drag at the middle velocity",
+        f"final depth at {coarse_step} ns, beta = 3, drag at the middle velocity",
     )  # fmt: skip
     middle_coarse_5 = prints(
         "middle_coarse_5", "7.6744", coarse[5, middle], "um", "the same, beta = 5"
     )
-    change_3 = prints(
-        "change_3", "0.14", 1 - coarse[3, plain] / fine[3, plain], "percent",
-        "loss of depth from 0.2 to 0.5 ns, beta = 3, drag at the initial velocity",
+    return DepthNumbers(
+        plain_fine_3, plain_fine_5, plain_coarse_3, plain_coarse_5,
+        middle_fine_3, middle_fine_5, middle_coarse_3, middle_coarse_5,
     )  # fmt: skip
-    change_5 = prints(
+
+
+class ChangeNumbers(NamedTuple):
+    """What the coarse time step changes."""
+
+    of_3: Evidence
+    of_5: Evidence
+    middle_5: Evidence
+    nm_3: Evidence
+    nm_5: Evidence
+    reprinted: Evidence
+
+
+def changes_by_step(results: Results, fine: Depths, coarse: Depths) -> ChangeNumbers:
+    """Return the loss of depth with a coarse time step, and the depth as it would print."""
+    fine_step, coarse_step = results.text("a-step"), results.text("coarse-step")
+    plain, middle = Scheme.PUBLISHED, Scheme.CENTERED
+    of_3 = prints(
+        "change_3", "0.14", 1 - coarse[3, plain] / fine[3, plain], "percent",
+        f"loss of depth from {fine_step} to {coarse_step} ns, beta = 3, drag at the initial "
+        "velocity",
+    )  # fmt: skip
+    of_5 = prints(
         "change_5", "0.12", 1 - coarse[5, plain] / fine[5, plain], "percent", "the same, beta = 5"
     )
-    middle_change_5 = prints(
+    middle_5 = prints(
         "middle_change_5", "0.007", 1 - coarse[5, middle] / fine[5, middle], "percent",
         "the same, beta = 5, drag at the middle velocity",
     )  # fmt: skip
@@ -323,46 +196,92 @@ def two_schemes(audit: Results) -> Finding:
     nm_5 = prints("nm_5", "9.3", fine[5, plain] - coarse[5, plain], "nm", "that loss, beta = 5")
     reprinted = equals(
         "reprinted", "7.66", Fraction(f"{coarse[5, plain]:.2e}"), "um",
-        "final depth at 0.5 ns as printed, beta = 5, drag at the initial velocity",
+        f"final depth at {coarse_step} ns as printed, beta = 5, drag at the initial velocity",
     )  # fmt: skip
-    middle_density = prints(
-        "middle_density", "7848.4", least_middle_density(audit), "kg/m^3",
-        "density above which the drag at the middle velocity gives the printed depth, beta = 5",
+    return ChangeNumbers(of_3, of_5, middle_5, nm_3, nm_5, reprinted)
+
+
+class RowNumbers(NamedTuple):
+    """The first row of the sheet that tells the schemes apart."""
+
+    number: Evidence
+    plain: Evidence
+    middle: Evidence
+
+
+def row_that_differs(results: Results) -> RowNumbers:
+    """Return the first row whose deceleration the schemes print otherwise, and both."""
+    first = first_difference(results)
+    rows = {scheme: sheet.run(case(results, 5), scheme).rows[first] for scheme in Scheme}
+    number = equals(
+        "row", "12", first, "1",
+        f"first row whose deceleration prints otherwise, beta = 5, {density_taken(results)}",
     )  # fmt: skip
-    number = first_difference(audit)
-    rows = {scheme: sheet.run(case(audit, 5), scheme).rows[number] for scheme in Scheme}
-    row = equals(
-        "row", "12", number, "1",
-        "first row whose deceleration prints otherwise, beta = 5, 7850 kg/m^3",
-    )  # fmt: skip
-    row_plain = prints(
-        "row_plain", "6.73E+09", rows[plain].deceleration, "m/s^2",
+    plain = prints(
+        "row_plain", "6.73E+09", rows[Scheme.PUBLISHED].deceleration, "m/s^2",
         "deceleration there, drag at the initial velocity",
     )  # fmt: skip
-    row_middle = prints(
-        "row_middle", "6.72E+09", rows[middle].deceleration, "m/s^2",
+    middle = prints(
+        "row_middle", "6.72E+09", rows[Scheme.CENTERED].deceleration, "m/s^2",
         "deceleration there, drag at the middle velocity",
     )  # fmt: skip
+    return RowNumbers(number, plain, middle)
+
+
+class ExactNumbers(NamedTuple):
+    """The exact depths at rest, and how far the sheet's fall short of them."""
+
+    short_3: Evidence
+    short_5: Evidence
+    coarse_short_5: Evidence
+    exact_3: Evidence
+    exact_5: Evidence
+
+
+def short_of_exact(results: Results, fine: Depths, coarse: Depths) -> ExactNumbers:
+    """Return the exact depths, and by how much the sheet's, drag at the initial velocity, fail."""
+    plain = Scheme.PUBLISHED
+    fine_step, coarse_step = results.text("a-step"), results.text("coarse-step")
+    rest = {b: depth.final_depth(**case(results, b).motion) for b in (3, 5)}
     short_3 = prints(
         "short_3", "8.80", rest[3] - fine[3, plain], "nm",
-        "exact depth at rest minus the sheet's at 0.2 ns, beta = 3",
+        f"exact depth at rest minus the sheet's at {fine_step} ns, beta = 3",
     )  # fmt: skip
     short_5 = prints(
         "short_5", "5.38", rest[5] - fine[5, plain], "nm",
-        "exact depth at rest minus the sheet's at 0.2 ns, beta = 5",
+        f"exact depth at rest minus the sheet's at {fine_step} ns, beta = 5",
     )  # fmt: skip
     coarse_short_5 = prints(
         "coarse_short_5", "14.6", rest[5] - coarse[5, plain], "nm",
-        "exact depth at rest minus the sheet's at 0.5 ns, beta = 5",
+        f"exact depth at rest minus the sheet's at {coarse_step} ns, beta = 5",
     )  # fmt: skip
     exact_3 = prints("exact_3", "10.0395", rest[3], "um", "exact depth at rest, beta = 3")
     exact_5 = prints("exact_5", "7.6749", rest[5], "um", "exact depth at rest, beta = 5")
-    density = audit.exact("carbon-steel-density")
+    return ExactNumbers(short_3, short_5, coarse_short_5, exact_3, exact_5)
+
+
+@concerning(
+    "depth-beta-3", "depth-beta-5", "coarse-step-remark", "a-half-step", "a-step", "coarse-step"
+)
+def two_schemes(results: Results) -> Finding:
+    """The appendix does not say at which velocity of a step the drag is taken."""
+    text, orders = results.text, orders_of_schemes(results)
+    fine, coarse = depths_by_sheet(results, "a-step"), depths_by_sheet(results, "coarse-step")
+    reached, change = (
+        depths_of_schemes(results, fine, coarse),
+        changes_by_step(results, fine, coarse),
+    )
+    row, at_rest = row_that_differs(results), short_of_exact(results, fine, coarse)
+    middle_density = prints(
+        "middle_density", "7848.4", least_middle_density(results), "kg/m^3",
+        "density above which the drag at the middle velocity gives the printed depth, beta = 5",
+    )  # fmt: skip
+    density = results.exact("carbon-steel-density")
     steps = (
         calculated("0.3736", 4 * 8900 / (3 * density) * math.log(1 + 0.98125 / 3.5)),
         calculated("0.3736", 0.6977**2 - 0.6977**3 / 3),
         calculated("7.675", 0.69772 * 11),
-        calculated("13.4", 5.376 * (audit["coarse-step"] / audit["a-step"])),
+        calculated("13.4", 5.376 * (results["coarse-step"] / results["a-step"])),
         calculated("7.660", 7.6749 - 0.0146),
     )
     return conclude(
@@ -372,43 +291,40 @@ def two_schemes(audit: Results) -> Finding:
         statement="The appendix takes the depth in the middle of a time step and calls the result "
         "a mid-point approximation of the acceleration; it never says at which velocity the drag "
         "is taken. With the velocity at the start of the row the time-step error is proportional "
-        f"to the step (observed order {order_plain}); with that in the middle, predicted by half a "
-        f"step, to its square ({order_middle}). Where the last row falls adds a small part that "
+        f"to the step (observed order {orders.plain}); with that in the middle, predicted by half "
+        f"a step, to its square ({orders.middle}). Where the last row falls adds a small part that "
         f"follows no order. Both print every cell of Table A-1, {text('depth-beta-3')} and "
         f"{text('depth-beta-5')} um; with the header exactly as printed, but the sphere's mass, "
         f"the second gives {text('depth-beta-5')} only for target densities above {middle_density} "
         f"kg/m^3, a part of those that the table admits. At {text('coarse-step')} ns the first "
-        f"gives {plain_coarse_3} and {plain_coarse_5} um, {change_3} % and {change_5} % less than "
-        f"at {text('a-step')} ns: less than one unit of the last printed digit, but with the "
-        f"inputs as printed {text('depth-beta-5')} would print {reprinted}. The second gives "
-        f"{middle_coarse_3} and {middle_coarse_5} um, and both print as before: read so, \"the "
-        "results did not change significantly\" is plainly true. With "
-        f"{text('carbon-steel-density')} kg/m^3 the first deceleration that tells the schemes "
-        f"apart, printed to three digits, would be that of row {row}: {row_plain} or {row_middle} "
-        "m/s^2. The table has no column of middle velocities, which speaks for the first scheme; "
-        "the audit takes it unless told otherwise. The first scheme's final depths are "
-        f"{short_3} and {short_5} nm short of the exact ones, {exact_3} and {exact_5} um.",
+        f"gives {reached.plain_coarse_3} and {reached.plain_coarse_5} um, {change.of_3} % and "
+        f"{change.of_5} % less than at {text('a-step')} ns: less than one unit of the last printed "
+        f"digit, but with the inputs as printed {text('depth-beta-5')} would print "
+        f"{change.reprinted}. The second gives {reached.middle_coarse_3} and "
+        f'{reached.middle_coarse_5} um, and both print as before: read so, "the results did not '
+        f"change significantly\" is plainly true. With {text('carbon-steel-density')} kg/m^3 the "
+        "first deceleration that tells the schemes apart, printed to three digits, would be that "
+        f"of row {row.number}: {row.plain} or {row.middle} m/s^2. The table has no column of "
+        "middle velocities, which speaks for the first scheme; the audit takes it unless told "
+        f"otherwise. The first scheme's final depths are {at_rest.short_3} and {at_rest.short_5} "
+        f"nm short of the exact ones, {at_rest.exact_3} and {at_rest.exact_5} um.",
         by_hand=f"Exact for beta = 5: c = 4 * 8900/(3 * {text('carbon-steel-density')}) * ln(1 + "
         f"0.98125/3.5) = {steps[0]}, and y^2 - y^3/3 = c: 0.6977^2 - 0.6977^3/3 = {steps[1]}, so X "
-        f"= 0.69772 * 11 = {steps[2]} um. If the error is proportional to the step, {short_5} nm "
-        f"at {text('a-step')} ns become 5.376 * {text('coarse-step')}/{text('a-step')} = "
-        f"{steps[3]} nm at {text('coarse-step')} ns; where the last row happens to fall makes it "
-        f"{coarse_short_5} nm: 7.6749 - 0.0146 = {steps[4]} um.",
+        f"= 0.69772 * 11 = {steps[2]} um. If the error is proportional to the step, "
+        f"{at_rest.short_5} nm at {text('a-step')} ns become 5.376 * "
+        f"{text('coarse-step')}/{text('a-step')} = {steps[3]} nm at {text('coarse-step')} ns; "
+        f"where the last row happens to fall makes it {at_rest.coarse_short_5} nm: 7.6749 - 0.0146 "
+        f"= {steps[4]} um.",
         settle="The formula in the acceleration column of the original spreadsheet.",
         status="open",
-        evidence=(
-            order_plain, order_middle, table, plain_fine_3, plain_fine_5, plain_coarse_3,
-            plain_coarse_5, middle_fine_3, middle_fine_5, middle_coarse_3, middle_coarse_5,
-            change_3, change_5, middle_change_5, nm_3, nm_5, reprinted, middle_density, row,
-            row_plain, row_middle, short_3, short_5, coarse_short_5, exact_3, exact_5,
-        ),
+        evidence=(*orders, *reached, *change, middle_density, *row, *at_rest),
         steps=steps,
     )  # fmt: skip
 
 
-def velocity_if_added(audit: Results) -> float:
+def velocity_if_added(results: Results) -> float:
     """Return the velocity after three rows of a sheet that adds a dt instead of subtracting it."""
-    impact = case(audit, 5)
+    impact = case(results, 5)
     fixed = (impact.radius, impact.mass, impact.target_density, impact.target_resistance)
     x, v = 0.0, impact.velocity
     for row in range(3):
@@ -426,19 +342,19 @@ def velocity_if_added(audit: Results) -> float:
     "a1-deceleration-3",
     "a1-velocity-final-3",
 )
-def table_columns(audit: Results) -> Finding:
+def table_columns(results: Results) -> Finding:
     """The columns of Table A-1 do not hold what their heads and their times suggest."""
-    text = audit.text
+    text = results.text
     reached = prints(
-        "exact", "1.00E-07", audit.exact("a1-initial-velocity") * audit.exact("a1-time-1"), "m",
+        "exact", "1.00E-07", results.exact("a1-initial-velocity") * results.exact("a1-time-1"), "m",
         "V times the time of row 1",
     )  # fmt: skip
     plus = prints(
-        "plus", "500.56", velocity_if_added(audit), "m/s",
+        "plus", "500.56", velocity_if_added(results), "m/s",
         "final velocity of row 3 if the accelerations were added",
     )  # fmt: skip
     minus = prints(
-        "minus", "499.44", audit.computed("a1-velocity-final-3"), "m/s",
+        "minus", "499.44", results.computed("a1-velocity-final-3"), "m/s",
         "final velocity of row 3 as they are subtracted",
     )  # fmt: skip
     steps = (

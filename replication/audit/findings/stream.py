@@ -1,6 +1,5 @@
 """Findings on the particle stream: sizes, velocities, and what was observed (sections 2 and 4)."""
 
-from fractions import Fraction
 from math import pi, sqrt
 from statistics import NormalDist, fmean
 
@@ -13,6 +12,7 @@ from replication.audit.findings.evidence import (
     equals,
     prints,
 )
+from replication.audit.particle_sizes import Law, diameter_power, velocity_by_size
 from replication.audit.record import Finding
 from replication.audit.results import Results, case, exact_ratio
 from replication.models.crater import normalized_depth_from_volume_ratio, volume_ratio
@@ -24,19 +24,26 @@ GAUSSIAN = sqrt(2 / pi)
 @concerning(
     "volume-ratio-line", "similar-data-ratio", "velocity-521", "velocity-606", "a1-initial-velocity"
 )
-def compared_velocity(audit: Results) -> Finding:
+def compared_velocity(results: Results) -> Finding:
     """The model was run at another velocity than the data have."""
-    text = audit.text
+    text = results.text
     ratios = {
-        name: exact_ratio(case(audit, 5, velocity=audit[name]))
+        name: exact_ratio(case(results, 5, velocity=results[name]))
         for name in ("velocity-521", "velocity-606", "velocity-403")
     }
-    first = prints("first", "0.728", ratios["velocity-521"], "1", "exact X/R at 521 m/s, beta = 5")
+    first = prints(
+        "first", "0.728", ratios["velocity-521"], "1",
+        f"exact X/R at {text('velocity-521')} m/s, beta = 5",
+    )  # fmt: skip
     second = prints(
-        "second", "0.854", ratios["velocity-606"], "1", "exact X/R at 606 m/s, beta = 5"
-    )
-    least = prints("least", "0.557", ratios["velocity-403"], "1", "exact X/R at 403 m/s, beta = 5")
-    y_5, y_3 = audit.exact("ratio-beta-5"), audit.exact("ratio-beta-3")
+        "second", "0.854", ratios["velocity-606"], "1",
+        f"exact X/R at {text('velocity-606')} m/s, beta = 5",
+    )  # fmt: skip
+    least = prints(
+        "least", "0.557", ratios["velocity-403"], "1",
+        f"exact X/R at {text('velocity-403')} m/s, beta = 5",
+    )  # fmt: skip
+    y_5, y_3 = results.exact("ratio-beta-5"), results.exact("ratio-beta-3")
     volume_high = prints(
         "volume_high", "0.28", y_5**2 * (3 - y_5) / 4, "1", "CV/PV at the printed X/R for beta = 5"
     )
@@ -68,12 +75,12 @@ def compared_velocity(audit: Results) -> Finding:
     )  # fmt: skip
 
 
-def mean_deviation_by_drag(audit: Results) -> float:
+def mean_deviation_by_drag(results: Results) -> float:
     """Return the mean |(d/d_0)^(-1/2) - 1| V [m/s] for normal d > 0, by the midpoint rule."""
-    normal = NormalDist(1.0, audit["diameter-deviation"] / audit["mean-diameter"])
+    normal = NormalDist(1.0, results["diameter-deviation"] / results["mean-diameter"])
     sizes = [(k + 0.5) / 10_000 for k in range(20_000)]
     mean = fmean((abs(d**-0.5 - 1) for d in sizes), weights=map(normal.pdf, sizes))
-    return mean * audit["a1-initial-velocity"]
+    return mean * results["a1-initial-velocity"]
 
 
 @concerning(
@@ -85,15 +92,15 @@ def mean_deviation_by_drag(audit: Results) -> float:
     "particle-size-least",
     "particle-size-greatest",
 )
-def equation_1_scatter(audit: Results) -> Finding:
+def equation_1_scatter(results: Results) -> Finding:
     """Eq. 1 has the particle's mass, but not its area."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     V, spread = exact("a1-initial-velocity"), exact("diameter-deviation") / exact("mean-diameter")
-    by_mass, by_drag = 3 * exact("eq1-power"), Fraction(1, 2)
-    mean_size = audit["mean-diameter"]
-    least, greatest = audit["particle-size-least"], audit["particle-size-greatest"]
-    smallest = audit["figure-1-velocity"] * (mean_size / least) ** float(by_mass)
-    largest = audit["figure-1-velocity"] * (mean_size / greatest) ** float(by_mass)
+    by_mass, by_drag = diameter_power(results, Law.EQ_1), diameter_power(results, Law.DRAG)
+    smallest, largest = (
+        velocity_by_size(results, results["figure-1-velocity"], results[size], Law.EQ_1)
+        for size in ("particle-size-least", "particle-size-greatest")
+    )
     mass_ratio = 1 + 3 * spread**2
     power = equals("power", "1.5", by_mass, "1", "power of the diameter in Eq. 1, turned")
     drag_power = equals("drag_power", "0.5", by_drag, "1", "the same by drag on a sphere")
@@ -117,7 +124,7 @@ def equation_1_scatter(audit: Results) -> Finding:
         "mean deviation of a Gaussian over its standard deviation",
     )  # fmt: skip
     drag_exact = prints(
-        "drag_exact", "56", mean_deviation_by_drag(audit), "m/s",
+        "drag_exact", "56", mean_deviation_by_drag(results), "m/s",
         "mean deviation by the same law, not linearized",
     )  # fmt: skip
     fast = prints("fast", "1700", smallest, "m/s", "velocity of the smallest particle by Eq. 1")
@@ -170,9 +177,9 @@ def equation_1_scatter(audit: Results) -> Finding:
 
 
 @concerning("velocity-deviation", "stream-velocity-400", "stream-velocity-450", "velocity-403")
-def faster_particles(audit: Results) -> Finding:
+def faster_particles(results: Results) -> Finding:
     """How many particles of the slow stream are as fast as those that stick."""
-    text, exact = audit.text, audit.exact
+    text, exact = results.text, results.exact
     fast, deviation = exact("stream-velocity-450"), exact("velocity-deviation")
     from_403 = (fast - exact("velocity-403")) / deviation
     from_400 = (fast - exact("stream-velocity-400")) / deviation
@@ -186,14 +193,17 @@ def faster_particles(audit: Results) -> Finding:
         "share of faster particles, taken as mean deviation",
     )  # fmt: skip
     standard_400 = prints(
-        "standard_400", "16", beyond(float(-from_400)), "percent", "the same share about 400 m/s"
-    )
+        "standard_400", "16", beyond(float(-from_400)), "percent",
+        f"the same share about {text('stream-velocity-400')} m/s",
+    )  # fmt: skip
     mean_400 = prints(
         "mean_400", "21", beyond(-from_400 * GAUSSIAN), "percent",
-        "the same about 400 m/s, taken as mean deviation",
+        f"the same about {text('stream-velocity-400')} m/s, taken as mean deviation",
     )  # fmt: skip
     ratio = prints("ratio", "0.94", from_403, "1", "distance in deviations")
-    ratio_400 = equals("ratio_400", "1", from_400, "1", "the same from 400 m/s")
+    ratio_400 = equals(
+        "ratio_400", "1", from_400, "1", f"the same from {text('stream-velocity-400')} m/s"
+    )
     step = calculated("0.94", from_403)
     v_400, v_403, v_450 = (
         text(name) for name in ("stream-velocity-400", "velocity-403", "stream-velocity-450")
@@ -223,15 +233,15 @@ def faster_particles(audit: Results) -> Finding:
 @concerning(
     "observed-depth-ratio", "observed-depth", "volume-ratio", "volume-ratio-line", "profile-depth"
 )
-def observed_digits(audit: Results) -> Finding:
+def observed_digits(results: Results) -> Finding:
     """The observed X/R is printed with more digits than the ratio of volumes has."""
-    text, exact = audit.text, audit.exact
-    ends = audit.ledger.claims["volume-ratio"].target().ends
-    line_ratio = normalized_depth_from_volume_ratio(audit["volume-ratio-line"])
-    profile_ratio = audit["profile-depth"] / (audit["mean-diameter"] / 2)
+    text, exact = results.text, results.exact
+    ends = results.ledger.claims["volume-ratio"].target().ends
+    line_ratio = normalized_depth_from_volume_ratio(results["volume-ratio-line"])
+    profile_ratio = results["profile-depth"] / (results["mean-diameter"] / 2)
     line = prints("line", "0.293", line_ratio, "1", "X/R from the line of Figure 1")
     line_depth = prints(
-        "line_depth", "3.2", line_ratio * (audit["observed-depth-diameter"] / 2), "um",
+        "line_depth", "3.2", line_ratio * (results["observed-depth-diameter"] / 2), "um",
         "depth from the line of Figure 1",
     )  # fmt: skip
     least = at_least(
