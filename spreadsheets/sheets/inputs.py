@@ -189,7 +189,7 @@ CONSTANTS = {
     "L_most": ("e^L is computed for L below this", "1"),
     "series_below": ("for x below this, ln(1 + x) and e^x - 1 are series", "1"),
     "um3_per_m3": ("cubic micrometers in a cubic meter", "1"),
-    "same_within": ("numbers are the same that differ by this share", "1"),
+    "same_within": ("numbers that differ by this share are the same", "1"),
     "travel_most": ("a step may pass this share of the radius", "1"),
     "excess_most": ("the sheet may exceed the exact depth by", "1"),
     "off_stop_most": ("the sheet may be off the exact depth at v_stop by", "1"),
