@@ -162,9 +162,9 @@ def _failure(
         "D": Cell(first, "text"),
     }
     if name in computed_in:
-        place, address = computed_in[name]
+        sheet_name, address = computed_in[name]
         shown = "0.0" if ledger.value(name) > 100 else "0.0000"
-        cells["C"] = formula(f"overview.{name}", f"='{place}'!{address}", "result", shown=shown)
+        cells["C"] = formula(f"overview.{name}", f"='{sheet_name}'!{address}", "result", shown=shown)
     sheet.put(**cells)
     for line in more:
         sheet.put(D=Cell(line, "text"))
