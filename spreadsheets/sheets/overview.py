@@ -164,7 +164,8 @@ def _failure(
     if name in computed_in:
         sheet_name, address = computed_in[name]
         shown = "0.0" if ledger.value(name) > 100 else "0.0000"
-        cells["C"] = formula(f"overview.{name}", f"='{sheet_name}'!{address}", "result", shown=shown)
+        computed = f"='{sheet_name}'!{address}"
+        cells["C"] = formula(f"overview.{name}", computed, "result", shown=shown)
     sheet.put(**cells)
     for line in more:
         sheet.put(D=Cell(line, "text"))
