@@ -1,24 +1,40 @@
 """Columns of numbers with units in their heads, from a text file: comma-separated values (CSV).
 
-A file has one row of heads, then rows of numbers. Cells are separated by commas, semicolons or
-tabs, whichever the heads are separated by. A head is a name and maybe a unit: `velocity [m/s]`,
-`depth (um)`, `depth, um` in quotation marks, `depth/um`, `depth um` and `depth_um` are all read.
-Without a unit a column is in SI units. Empty rows, and rows that begin with `#`, are skipped.
+A file has one row of heads, then rows of numbers; `replication.separated` says how it may be
+written. A head is a name and maybe a unit: `velocity [m/s]`, `depth (um)`, `depth, um` in quotation
+marks, `depth/um`, `depth in um`, `depth um` and `depth_um` are all read. A row of units may stand
+below the heads. Without a unit a column is in SI units.
 """
 
-import csv
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from reference.units import UnitError, unit_dimension
-from replication.user_input import content_of, place, quoted, read_number
+from reference.units import is_known, same_dimension, to_si
+from replication.separated import (
+    Rows,
+    commented_heads,
+    file_text,
+    heads_by_blanks,
+    line_cells,
+    plain_number,
+    separated_rows,
+)
+from replication.user_input import (
+    content_of,
+    number_parts,
+    place,
+    quoted,
+    read_number,
+    typed_unit,
+)
 
 LARGEST_FILE = 2**26
 
 _BRACKETS = re.compile(r"(?P<name>.*?)[\s/,]*(?:\[(?P<square>.*)\]|\((?P<round>.*)\))")
-_SEPARATOR = re.compile(r"[\s,_/]+")
+_IN = re.compile(r"(?P<name>.*\S)\s+in\s+(?P<unit>\S.*)", re.IGNORECASE)
+_GAP = re.compile(r"[\s,_/]+")
 _PLUS_MINUS = re.compile(r"±|\+/?-")
 
 
@@ -27,7 +43,8 @@ class Column:
     """A column as it stands in the file: the head, the name and unit in it, and the cells' texts.
 
     The name is in small letters, its words are separated by blanks. The unit is "" if the head has
-    none. `lines` are the numbers of the cells' lines in the file, whose name is `file`.
+    none. `lines` are the numbers of the cells' lines in the file, whose name is `file`. The decimal
+    mark, `decimal`, is a point or a comma.
     """
 
     file: str
@@ -36,6 +53,7 @@ class Column:
     unit: str
     texts: tuple[str, ...]
     lines: tuple[int, ...]
+    decimal: str = "."
 
     def numbers(self, unit: str) -> list[float]:
         """Return the cells as numbers in SI units; `unit` is an SI unit of what is expected.
@@ -49,26 +67,46 @@ class Column:
         ValueError: my.csv, line 3, column 'v [m/s]': the cell is empty
         """
         own = "" if self.unit == unit == "1" else self.unit  # "X/R [1]" and "X/R [-]" have none
-        with place(f"{self.file}, column {quoted(self.head)}"):
-            read_number(f"1 {own}", unit)  # its unit, once and not in every row
+        with place(f"{self.file}, column {quoted(self.head)}"):  # once and not in every row
+            if own and not same_dimension(own, unit):
+                wanted = "a number without a unit" if unit == "1" else f"what {unit} does"
+                raise ValueError(f"{own} does not measure {wanted}")
         numbers, errors = [], []
         for line, text in zip(self.lines, self.texts, strict=True):
             try:
                 with place(f"{self.file}, line {line}, column {quoted(self.head)}"):
-                    if not text:
-                        raise ValueError("the cell is empty")
-                    if _PLUS_MINUS.search(text):
-                        unit_here = f" [{self.unit}]" if self.unit else ""
-                        raise ValueError(
-                            f"{quoted(text)} is a number and its uncertainty: put that into a "
-                            f"column of its own, 'uncertainty{unit_here}'"
-                        )
-                    numbers.append(read_number(f"{text} {own}".strip(), unit))
+                    numbers.append(self._cell_number(text, unit, own))
             except ValueError as error:
                 errors.append((line, error))
         if errors:
             raise bad_rows(errors)
         return numbers
+
+    @property
+    def plain_texts(self) -> list[str]:
+        """The cells' texts with decimal points, and without marks of thousands."""
+        return [self._with_point(text) for text in self.texts]
+
+    def _with_point(self, text: str) -> str:
+        plain = plain_number(text)
+        return plain.replace(",", ".") if self.decimal == "," else plain
+
+    def _cell_number(self, text: str, unit: str, own: str) -> float:
+        """Return the number of a cell; its messages quote the text as it stands in the file."""
+        if not text:
+            raise ValueError("the cell is empty")
+        if _PLUS_MINUS.search(text):
+            unit_here = f" [{self.unit}]" if self.unit else ""
+            raise ValueError(
+                f"{quoted(text)} is a number and its uncertainty: put that into a column of its "
+                f"own, 'uncertainty{unit_here}'"
+            )
+        plain = self._with_point(text)
+        if not plain[-1:].isdigit() and own:  # it may have a unit of its own
+            typed = typed_unit(plain)
+            if is_known(typed) and to_si(typed) != to_si(own):
+                raise ValueError(f"{quoted(text)} has another unit than the head of its column")
+        return read_number(plain if number_parts(plain) else text, unit, own)
 
 
 def bad_rows(errors: Sequence[tuple[int, ValueError]]) -> ValueError:
@@ -86,64 +124,122 @@ def bad_rows(errors: Sequence[tuple[int, ValueError]]) -> ValueError:
 def read_columns(path: Path) -> list[Column]:
     """Read the columns of a file. Raises OSError, or ValueError that names the file and the line.
 
-    The file must be UTF-8 text of at most 64 MiB, with a head for every column and no head twice,
-    and at least one row.
+    The file must be text of at most 64 MiB, with a head for every column and no head twice, and at
+    least one row.
     """
     content = content_of(path, LARGEST_FILE)
     with place(str(path)):
-        rows = list(_numbered_rows(_decoded(content)))
+        if len(content) > LARGEST_FILE:
+            raise ValueError(f"is larger than {LARGEST_FILE:,} bytes")
+        rows, separator = _rows_with_heads(file_text(content).splitlines())
         if len(rows) < 2:
             raise ValueError("has no row of numbers below a row of heads")
-    (head_line, heads), *body = rows
-    while heads and not heads[-1]:
-        heads.pop()
+    (head_line, heads), *body = rows.items()
     with place(f"{path}, line {head_line}"):
-        for k, head in enumerate(heads):
-            if not head:
-                raise ValueError(f"column {k + 1} has no head")
-            if head in heads[:k]:
-                raise ValueError(f"two columns have the head {quoted(head)}")
+        _check_heads(heads)
     for line, cells in body:
-        if any(cells[len(heads) :]):
+        if len(cells) > len(heads):
             raise ValueError(f"{path}, line {line}: has more cells than there are heads")
+    units = [""] * len(heads)
+    if len(body) > 1 and _is_row_of_units(body[0][1]):
+        units = [*body.pop(0)[1], *units][: len(heads)]
+    decimal = "." if separator == "," else _decimal_mark(path, body)
     lines = tuple(line for line, _ in body)
     columns = []
     for k, head in enumerate(heads):
         texts = tuple(cells[k] if k < len(cells) else "" for _, cells in body)
-        columns.append(Column(str(path), head, *name_and_unit(head), texts, lines))
+        name, unit = name_and_unit(head)
+        unit = unit or _bare_unit(units[k])
+        columns.append(Column(str(path), head, name, unit, texts, lines, decimal))
     return columns
 
 
-def _decoded(content: bytes) -> str:
-    if len(content) > LARGEST_FILE:
-        raise ValueError(f"is larger than {LARGEST_FILE:,} bytes")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise ValueError("is not UTF-8 text: save it as CSV in UTF-8") from error
+_LOOKED_AT = 1000
+"""The lines of a file by which its separator is chosen."""
 
 
-def _numbered_rows(text: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the rows that are not skipped, each with the number of its last line."""
-    lines = text.splitlines(keepends=True)
-    first = next((line for line in lines if line.strip() and line.lstrip()[0] != "#"), "")
-    bare = re.sub('"[^"]*"', "", first)
-    for line, cells in csv_rows(lines, max(",;\t", key=bare.count)):
-        if any(cells) and not cells[0].startswith("#"):
-            yield line, cells
+def _rows_with_heads(lines: Sequence[str]) -> tuple[Rows, str]:
+    """Return the rows of cells, of which the first has the heads, and what separates them."""
+    _, separator = separated_rows(lines[:_LOOKED_AT], _worth)
+    rows = dict(line_cells(lines, separator))
+    if not rows:
+        return rows, separator
+    first, *others = rows
+    if any(map(_is_number, rows[first])):
+        commented = commented_heads(lines, first, len(rows[first]), separator)
+        if commented is None and all(map(_is_number, rows[first])):
+            raise ValueError(
+                f"line {first} has numbers, but no row of heads above it: give each column a head, "
+                "such as 'velocity [m/s]'"
+            )
+        rows = dict([commented]) | rows if commented else rows
+    elif separator == " " and others:
+        rows[first] = heads_by_blanks(lines[first - 1])
+    return rows, separator
 
 
-def csv_rows(lines: Iterable[str], separator: str) -> Iterator[tuple[int, list[str]]]:
-    """Yield the rows of CSV without blanks around cells, each with the number of its last line.
+def _worth(rows: Rows, separator: str) -> tuple[int, ...]:
+    """How many rows of numbers a separator gives, of how many cells; else numbers among others.
 
-    Raises ValueError that names the line.
+    Where no row has two numbers, that which separates most heads counts: blanks are within heads.
     """
-    reader = csv.reader(lines, delimiter=separator, skipinitialspace=True)
-    try:
-        for row in reader:
-            yield reader.line_num, [cell.strip() for cell in row]
-    except csv.Error as error:
-        raise ValueError(f"line {reader.line_num} is not CSV: {error}") from error
+    full = cells_of_full = numbers = 0
+    for cells in rows.values():
+        count = sum(map(_is_number, cells))
+        if count > 1:
+            numbers += count
+            if count == len(cells):
+                full, cells_of_full = full + 1, cells_of_full + count
+    heads = next(iter(rows.values()), [])
+    return full, cells_of_full, numbers, 0 if separator == " " else len(heads)
+
+
+def _is_number(text: str) -> bool:
+    """Whether a cell is a number with either decimal mark, maybe with a unit or an uncertainty."""
+    parts = number_parts(_PLUS_MINUS.split(plain_number(text))[0].replace(",", "."))
+    return parts is not None and (not parts[1] or is_known(parts[1]))
+
+
+def _decimal_mark(path: Path, body: Sequence[tuple[int, Sequence[str]]]) -> str:
+    """Return the decimal mark of a file that does not separate cells by commas.
+
+    Raises ValueError if some numbers have a comma and others a point: these may be marks of
+    thousands, which would be a factor of a thousand.
+    """
+    first: dict[str, tuple[int, str]] = {}
+    for line, cells in body:
+        for cell in cells:
+            for mark in ".,":
+                if mark not in first and mark in plain_number(cell) and _is_number(cell):
+                    first[mark] = line, cell
+    if len(first) > 1:
+        (point_line, point), (line, comma) = first["."], first[","]
+        raise ValueError(
+            f"{path}, line {point_line}: {quoted(point)} has a point, and {quoted(comma)} in line "
+            f"{line} a comma: write all decimal marks alike, and no marks of thousands"
+        )
+    return next(iter(first), ".")
+
+
+def _is_row_of_units(cells: Sequence[str]) -> bool:
+    """Whether the row below the heads has their units, as "m/s" and "[um]"."""
+    units = [_bare_unit(cell) for cell in cells if cell]
+    return all(map(is_known, units)) and any(unit != "1" for unit in units)
+
+
+def _bare_unit(text: str) -> str:
+    """Return a unit in a cell of its own, without brackets; "1" for a dash."""
+    unit = text[1:-1].strip() if text[:1] + text[-1:] in ("[]", "()") else text
+    return "1" if unit == "-" else unit
+
+
+def _check_heads(heads: Sequence[str]) -> None:
+    """Raise ValueError if a column has no head, or that of another column."""
+    for k, head in enumerate(heads):
+        if not head:
+            raise ValueError(f"column {k + 1} has no head")
+        if head in heads[:k]:
+            raise ValueError(f"two columns have the head {quoted(head)}")
 
 
 def name_and_unit(head: str) -> tuple[str, str]:
@@ -151,25 +247,22 @@ def name_and_unit(head: str) -> tuple[str, str]:
 
     >>> name_and_unit("Impact velocity [m/s]"), name_and_unit("depth_um"), name_and_unit("dx/dt")
     (('impact velocity', 'm/s'), ('depth', 'um'), ('dx/dt', ''))
+    >>> name_and_unit("Tiefe in µm"), name_and_unit("depth in")
+    (('tiefe', 'µm'), ('depth', 'in'))
     """
-    name, unit = head, ""
-    if match := _BRACKETS.fullmatch(head.strip()):
+    name, unit = head.strip(), ""
+    if match := _BRACKETS.fullmatch(name):
         name, unit = match["name"], (match["square"] or match["round"] or "").strip()
+        name = re.sub(r"\s+in$", "", name) if unit else name
         unit = "1" if unit == "-" else unit
+    elif (match := _IN.fullmatch(name)) and is_known(match["unit"]):
+        name, unit = match["name"], match["unit"]
     else:
-        for gap in _SEPARATOR.finditer(head):
-            if head[: gap.start()] and _is_unit(head[gap.end() :]):
+        for gap in _GAP.finditer(head):
+            if head[: gap.start()] and is_known(head[gap.end() :]):
                 name, unit = head[: gap.start()], head[gap.end() :]
                 break
     return " ".join(name.replace("_", " ").lower().split()), unit
-
-
-def _is_unit(text: str) -> bool:
-    try:
-        unit_dimension(text)
-    except UnitError:
-        return False
-    return True
 
 
 def not_among(columns: Iterable[Column], used: Iterable[Column]) -> list[Column]:

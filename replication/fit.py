@@ -6,6 +6,7 @@ residuals, each over its uncertainty if the data have that.
 
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -20,22 +21,39 @@ FITTABLE = ("resistance", *OTHER_FACTOR)
 """What can be fitted."""
 
 HEADS = {
-    "velocity": ("velocity", "impact velocity", "v"),
-    "depth": ("depth", "penetration depth", "final depth", "x"),
+    "velocity": (
+        "velocity", "impact velocity", "v", "v0", "v 0", "v i",
+        "geschwindigkeit", "aufprallgeschwindigkeit", "auftreffgeschwindigkeit",
+        "vitesse", "vitesse d'impact", "vitesse d’impact",
+    ),
+    "depth": (
+        "depth", "penetration depth", "final depth", "x", "penetration",
+        "tiefe", "eindringtiefe", "profondeur", "profondeur de pénétration", "pénétration",
+    ),
     "normalized_depth": ("normalized depth", "depth over radius", "x/r"),
     "uncertainty": (
         "uncertainty", "depth uncertainty", "uncertainty of depth", "u(depth)", "u(x)", "sigma",
-        "standard deviation", "std", "sd", "stdev", "depth std", "depth sd",
+        "standard deviation", "std", "sd", "stdev", "std dev", "std. dev.", "depth std", "depth sd",
         "error", "depth error", "error of depth", "standard error", "err", "±", "+/-", "+-",
+        "unsicherheit", "messunsicherheit", "fehler", "messfehler", "standardabweichung",
+        "incertitude", "erreur", "écart-type",
     ),
-    "radius": ("radius", "particle radius", "r"),
+    "radius": (
+        "radius", "particle radius", "r",
+        "partikelradius", "teilchenradius", "rayon", "rayon des particules",
+    ),
     "diameter": (
         "diameter", "particle diameter", "d", "dia", "dia.", "particle dia", "particle dia.",
+        "durchmesser", "partikeldurchmesser", "teilchendurchmesser",
+        "diamètre", "diamètre des particules",
     ),
-    "particle_density": ("particle density",),
-    "target_density": ("target density",),
+    "particle_density": ("particle density", "partikeldichte", "teilchendichte"),
+    "target_density": ("target density", "zieldichte", "dichte des ziels"),
 }  # fmt: skip
-"""The names by which columns are known: what is measured, and inputs that may differ by row."""
+"""The names by which columns are known, also in German and French; the first is the usual one.
+
+They are what is measured, and inputs that may differ by row.
+"""
 
 _UNITS = INPUTS | {"depth": "m", "normalized_depth": "1", "diameter": "m"}
 
@@ -89,9 +107,10 @@ def read_measurements(path: Path, impact: Impact) -> list[Measurement]:
     """Read measurements from a file of columns (`replication.columns`), by the names in `HEADS`.
 
     It must have columns of the velocity, and of the depth or the normalized depth X/R; an
-    uncertainty is that of the column it has. Of a diameter the radius is half. Inputs that it does
-    not have are the case's, and further columns are ignored: `measurement_columns` says which.
-    Raises OSError, or ValueError that names the file and the line.
+    uncertainty is that of the column it has, in per cent a share of the depth. Of a diameter the
+    radius is half. Inputs that it does not have are the case's, and further columns are ignored:
+    `measurement_columns` says which. Raises OSError, or ValueError that names the file and the
+    line.
     """
     return measurements_in(measurement_columns(read_columns(path)), impact)
 
@@ -112,30 +131,34 @@ def measurement_columns(columns: Sequence[Column]) -> dict[str, Column]:
     if "depth" not in known and "normalized_depth" not in known:
         missing.append("depth")
     if missing:
-        rest = {column.name: quoted(column.head) for column in not_among(columns, known.values())}
-        named = [_to_be_named(name, rest) for name in missing]
+        rest = {column.name: column for column in not_among(columns, known.values())}
+        named = "; ".join(_to_be_named(name, rest) for name in missing)
         has = ", ".join([quoted(column.head) for column in columns][:6])
         no_columns = " and no column ".join(repr(name) for name in missing)
-        raise ValueError(
-            f"{file} has no column {no_columns}: {', and '.join(named)} (it has {has})"
-        )
+        raise ValueError(f"{file} has no column {no_columns}: {named} (it has {has})")
     return known
 
 
-def _to_be_named(name: str, heads: Mapping[str, str]) -> str:
-    """Return which column is to be named so, if one has a similar name, and with which unit."""
-    similar = get_close_matches(name, heads, n=1)
-    which = heads[similar[0]] if similar else "one"
-    return f"name {which} so, such as '{name} [{_UNITS[name]}]'"
+def _to_be_named(name: str, rest: Mapping[str, Column]) -> str:
+    """Return which column is to be renamed to this, with its unit, if one has a similar name."""
+    usual = {"velocity": "m/s", "depth": "um"}[name]
+    if not (similar := get_close_matches(name, rest, n=1)):
+        return f"it needs one such as '{name} [{usual}]'"
+    column = rest[similar[0]]
+    unit = f" [{column.unit}]" if column.unit else ""
+    return f"rename {quoted(column.head)} to '{name}{unit}'"
 
 
 def measurements_in(known: Mapping[str, Column], impact: Impact) -> list[Measurement]:
     """Return the measurements that `measurement_columns` have, as `read_measurements` does."""
     measured = "depth" if "depth" in known else "normalized_depth"
+    numbers = {
+        name: column.numbers(_UNITS[name]) for name, column in known.items() if name in _UNITS
+    }
     if "uncertainty" in known:
-        check_uncertainty(known["uncertainty"], known[measured])
-    units = _UNITS | {"uncertainty": _UNITS[measured]}
-    numbers = {name: column.numbers(units[name]) for name, column in known.items()}
+        numbers["uncertainty"] = uncertainties_in(
+            known["uncertainty"], known[measured], numbers[measured], _UNITS[measured]
+        )
     case = {name: impact.motion[name] for name in HEADS if name in impact.motion}
     measurements, errors = [], []
     for k, line in enumerate(known["velocity"].lines):
@@ -158,17 +181,52 @@ def measurements_in(known: Mapping[str, Column], impact: Impact) -> list[Measure
     return measurements
 
 
-def check_uncertainty(uncertainty: Column, depth: Column) -> None:
+def uncertainties_in(
+    uncertainty: Column, depth: Column, depths: Sequence[float], unit: str
+) -> list[float]:
+    """Return the uncertainties of depths in their SI unit, "m", or "1" for normalized depths.
+
+    A percentage is that share of the depth in its line (`is_share`). Raises ValueError that names
+    the file.
+    """
+    if is_share(uncertainty, depth):
+        shares = uncertainty.numbers("1")
+        return [share * value for share, value in zip(shares, depths, strict=True)]
+    _check_uncertainty(uncertainty, depth)
+    return uncertainty.numbers(unit)
+
+
+_PERCENT = ("%", "percent")
+
+
+def is_share(uncertainty: Column, depth: Column) -> bool:
+    """Return whether uncertainties are percentages, and the depths are none.
+
+    Beside normalized depths in per cent an uncertainty in per cent is as they are, of the radius.
+    """
+    units = {uncertainty.unit or unit for unit in map(typed_unit, uncertainty.plain_texts)}
+    return units <= {*_PERCENT} and depth.unit not in _PERCENT
+
+
+def note_of_share(uncertainty: Column | None, depth: Column | None) -> list[str]:
+    """Return a note if uncertainties are taken as shares of the depths; none otherwise."""
+    if uncertainty is None or depth is None or not is_share(uncertainty, depth):
+        return []
+    head = quoted(uncertainty.head)
+    return [f"{uncertainty.file}: {head} is taken as a share of the depth in its line"]
+
+
+def _check_uncertainty(uncertainty: Column, depth: Column) -> None:
     """Raise ValueError if uncertainties are plain numbers beside depths with a unit.
 
     They would be metres, and are meant in the unit of the depths.
     """
     unit = "" if depth.unit == "1" else depth.unit
-    if unit and not uncertainty.unit and not all(map(typed_unit, uncertainty.texts)):
+    if unit and not uncertainty.unit and not all(map(typed_unit, uncertainty.plain_texts)):
         head = quoted(uncertainty.head)
         raise ValueError(
             f"{uncertainty.file}, column {head}: has no unit, beside {quoted(depth.head)}: write "
-            f"'{uncertainty.head} [{unit}]' if it is in {unit}"
+            f"'{uncertainty.head} [{unit}]' if it is in {unit}, or '{uncertainty.head} [%]'"
         )
 
 
@@ -204,7 +262,7 @@ def fit(impact: Impact, measurements: Sequence[Measurement], quantity: str = "re
     scale = math.fsum(m.depth for m in measurements) / len(measurements)
     resistance = _least_squares(measurements, uncertainties or [scale] * len(measurements))
     residuals = tuple(m.depth - final_depth(*m.impact, resistance) for m in measurements)
-    slopes = [_depth_slope(m, resistance) for m in measurements]
+    slopes = [depth_slope(m, resistance) for m in measurements]
     chi_square = error = None
     if uncertainties:
         pairs = list(zip(residuals, slopes, uncertainties, strict=True))
@@ -230,7 +288,7 @@ def check_factor(impact: Impact, quantity: str) -> float:
     return other_factor(impact, quantity) if quantity in OTHER_FACTOR else 1.0
 
 
-def _depth_slope(measurement: Measurement, resistance: float) -> float:
+def depth_slope(measurement: Measurement, resistance: float) -> float:
     """Return dX / d ln R_t [m], which is negative."""
     velocity, _, *densities = measurement.impact
     by_input = elasticities(velocity, densities[0], densities[1], resistance)
@@ -257,7 +315,7 @@ def _least_squares(measurements: Sequence[Measurement], uncertainties: Sequence[
     def slopes(log_resistance: "Sequence[float]") -> list[list[float]]:
         R_t = math.exp(log_resistance[0])
         pairs = zip(measurements, uncertainties, strict=True)
-        return [[_depth_slope(m, R_t) / sigma] for m, sigma in pairs]
+        return [[depth_slope(m, R_t) / sigma] for m, sigma in pairs]
 
     bounds = math.log(single[0]) - 1, math.log(single[-1]) + 1
     # The tolerances are those of doubles: a step below them changes nothing.
@@ -265,6 +323,13 @@ def _least_squares(measurements: Sequence[Measurement], uncertainties: Sequence[
     starts = {single[0], single[len(single) // 2], single[-1]}
     fits = [least_squares(residuals, [math.log(start)], **options) for start in sorted(starts)]
     return math.exp(min(fits, key=lambda result: result.cost).x[0])
+
+
+def own_resistance(measurement: Measurement) -> float | None:
+    """Return the resistance [Pa] that a measurement gives by itself; None if no double holds it."""
+    with suppress(ValueError):
+        return _own_resistance(measurement)
+    return None
 
 
 def _own_resistance(measurement: Measurement) -> float:

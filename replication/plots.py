@@ -13,14 +13,15 @@ from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from replication.asked_unit import LENGTH_UNITS, TIME_UNITS, ask_if_far
 from replication.cases import INPUTS
 from replication.columns import Column, column_of, not_among, note_of_unused, read_columns
-from replication.fit import HEADS, Fit, Measurement, check_uncertainty
+from replication.fit import HEADS, Fit, Measurement, note_of_share, uncertainties_in
 from replication.models.depth import final_depth
 from replication.models.impact import Impact
 from replication.models.motion import history, stop_time
 from replication.models.sheet import Sheet
-from replication.text import number
+from replication.text import number, with_error
 from spreadsheets.safely import check_target
 from spreadsheets.styles import CURVES
 
@@ -148,8 +149,10 @@ def _quantity(name: str, si: str, label: str = "", names: Sequence[str] = ()) ->
     return AxisQuantity(label or words.capitalize(), tuple(names) or (words,), si, unit, scale)
 
 
-TIME = _quantity("time", "s", names=("time", "t"))
-SPEED = _quantity("velocity", "m/s", names=HEADS["velocity"])
+TIME = _quantity("time", "s", names=("time", "t", "zeit", "temps"))
+SPEED = _quantity(
+    "velocity", "m/s", names=("velocity", "impact velocity", "v", "geschwindigkeit", "vitesse")
+)
 DEPTH = _quantity("depth", "m", "Penetration depth", HEADS["depth"])
 RATIO = _quantity("normalized_depth", "1", "Normalized depth X/R", ("normalized depth", "x/r"))
 STEP = _quantity("step", "s", "Time step", ("step", "time step", "dt"))
@@ -225,11 +228,17 @@ def _draw_own_points(
     marks.set_gid("further-data" if further else "data")
 
 
-def read_points(path: Path, x: AxisQuantity | None, ys: Sequence[AxisQuantity]) -> Points:
+def read_points(
+    path: Path,
+    x: AxisQuantity | None,
+    ys: Sequence[AxisQuantity],
+    reach: Mapping[AxisQuantity, tuple[float, str]] = {},
+) -> Points:
     """Read one's own points from a file of columns (`replication.columns`), known by their heads.
 
-    There must be a column of x, if it is not None, and of one of `ys` at least. Raises OSError, or
-    ValueError that names the file and what it lacks.
+    There must be a column of x, if it is not None, and of one of `ys` at least. `reach` says how
+    far [SI] that goes with which some quantities are drawn, and what it is: a column without a unit
+    must not be far beyond. Raises OSError, or ValueError that names the file and what it lacks.
     """
     columns = read_columns(path)
     known: dict[AxisQuantity, Column] = {}
@@ -237,11 +246,11 @@ def read_points(path: Path, x: AxisQuantity | None, ys: Sequence[AxisQuantity]) 
     for quantity in (*([x] if x else ()), *ys, UNCERTAINTY):
         if column := column_of(not_among(columns, known.values()), quantity.names):
             known[quantity] = column
-    if UNCERTAINTY in known and DEPTH in known:
-        check_uncertainty(known[UNCERTAINTY], known[DEPTH])
-    elif DEPTH not in known:
-        known.pop(UNCERTAINTY, None)  # bars are those of a depth
+    uncertainty = known.pop(UNCERTAINTY, None)
     numbers = {quantity: column.numbers(quantity.si) for quantity, column in known.items()}
+    if uncertainty and DEPTH in known:  # bars are those of a depth
+        bars = uncertainties_in(uncertainty, known[DEPTH], numbers[DEPTH], DEPTH.si)
+        known[UNCERTAINTY], numbers[UNCERTAINTY] = uncertainty, bars
     lacks = "" if x is None or x in numbers else f"'{_head(x)}'"
     if not any(y in numbers for y in ys):
         wanted = " or ".join(f"'{_head(y)}'" for y in ys)
@@ -249,7 +258,20 @@ def read_points(path: Path, x: AxisQuantity | None, ys: Sequence[AxisQuantity]) 
     if lacks:
         has = ", ".join(repr(column.head) for column in columns[:6])
         raise ValueError(f"{path} has no column {lacks} (it has {has})")
-    return Points(path.name, numbers, note_of_unused(columns, known.values()))
+    for quantity, (scale, what) in reach.items():
+        if quantity in known:
+            units = TIME_UNITS if quantity.si == "s" else LENGTH_UNITS
+            ask_if_far(known[quantity], numbers[quantity], scale, what, units)
+    notes = note_of_unused(columns, known.values())
+    notes += note_of_share(known.get(UNCERTAINTY), known.get(DEPTH))
+    return Points(path.name, numbers, notes)
+
+
+def reach_of(impact: Impact) -> dict[AxisQuantity, tuple[float, str]]:
+    """Return the reach of a case, for `read_points`: its time of rest [s] and its depth [m]."""
+    time = stop_time(**impact.motion), "the time until rest"
+    depth = final_depth(**impact.motion), "the final depth"
+    return {TIME: time, STEP: time, DEPTH: depth, ERROR: depth}
 
 
 def _head(quantity: AxisQuantity) -> str:
@@ -540,12 +562,14 @@ def plot_fit(
 
 
 def _fitted(fit: Fit) -> str:
-    """Return the fitted quantity with its standard error, such as "resistance 3.5 ± 0.1 GPa"."""
+    """Return the fitted quantity with its standard error, such as "resistance 3.50 ± 0.10 GPa"."""
     unit, scale = {"beta": ("", 1.0), "flow_stress": (" MPa", 1e-6)}.get(
         fit.quantity, (" GPa", 1e-9)
     )
-    error = "" if fit.standard_error is None else f" ± {number(fit.standard_error * scale, 2)}"
-    return f"fitted {fit.quantity.replace('_', ' ')} {number(fit.value * scale, 4)}{error}{unit}"
+    shown = number(fit.value * scale, 4)
+    if fit.standard_error is not None:
+        shown = with_error(fit.value * scale, fit.standard_error * scale)
+    return f"fitted {fit.quantity.replace('_', ' ')} {shown}{unit}"
 
 
 # Sweeps
@@ -590,11 +614,25 @@ def check_sweep(axes: Mapping[str, int], samples: int, drawn: bool) -> None:
         )
 
 
-def sweep_points(axes: Mapping[str, int], drawn: bool) -> Callable[[Path], Points]:
-    """Return a reader of one's own points for the figure of a sweep."""
+def sweep_points(
+    axes: Mapping[str, int], drawn: bool, greatest: Mapping[str, float] = {}
+) -> Callable[[Path], Points]:
+    """Return a reader of one's own points for the figure of a sweep.
+
+    `greatest` has the greatest value [SI] of each input, which says how far the axes reach.
+    """
     x = None if drawn else INPUT[_across(axes)]
     ys = (INPUT[_vertical_input(axes)],) if not drawn and _is_map(axes) else (DEPTH, RATIO)
-    return lambda path: read_points(path, x, ys)
+    reach = {
+        quantity: (greatest[name], f"the largest {name.replace('_', ' ')} of the plan")
+        for quantity, name in (
+            (DEPTH, "radius"),
+            (INPUT["radius"], "radius"),
+            (INPUT["step"], "step"),
+        )
+        if name in greatest
+    }
+    return lambda path: read_points(path, x, ys, reach)
 
 
 def _across(axes: Mapping[str, int]) -> str:

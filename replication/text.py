@@ -3,6 +3,7 @@
 Rounding never makes a proven range narrower.
 """
 
+import math
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from decimal import ROUND_CEILING, ROUND_FLOOR, Context, Decimal
@@ -54,6 +55,25 @@ def number(value: float | Fraction, digits: int = 6) -> str:
     ('7.66956', '3.5e+09')
     """
     return f"{float(value):.{digits}g}"
+
+
+def with_error(value: float, error: float) -> str:
+    """Write a value and its standard error, this to two digits, with as many decimals each.
+
+    >>> with_error(1.12166, 0.0103), with_error(1234.5, 121.9), with_error(3.69806e12, 3.9e11)
+    ('1.122 ± 0.010', '1230 ± 120', '(3.70 ± 0.39)×10¹²')
+    >>> with_error(3.5, 1.2e-16)
+    '3.5 ± 1.2e-16'
+    """
+    if not 0 < error < math.inf or error < 1e-9 * abs(value):
+        return f"{number(value, 9)} ± {number(error, 2)}"
+    power = int(f"{max(abs(value), error):e}".partition("e")[2])
+    if not -4 <= power < 6:
+        scale = 10.0**power
+        return f"({with_error(value / scale, error / scale)})×10{superscript(str(power))}"
+    decimals = 1 - int(f"{error:.1e}".partition("e")[2])
+    shown = (f"{round(x, decimals):.{max(decimals, 0)}f}" for x in (value, error))
+    return " ± ".join(shown)
 
 
 def in_percent(share: float, digits: int = 3) -> str:

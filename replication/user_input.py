@@ -247,22 +247,17 @@ _TIMES_TEN = re.compile(r"(?<=[\d.])\s*(?:[×x*·]|\\times|\\cdot)\s*10\^([-+]?\
 """A power of ten as it is printed, such as "×10^9"."""
 
 
-def _number_and_unit(text: str, unit: str) -> tuple[str, str]:
-    """Return a number and its unit, or "1"; raises ValueError as `read_number` does."""
+def number_parts(text: str) -> tuple[str, str] | None:
+    """Return a number and the unit with which it is written ("" for none), or None if it is none.
+
+    The unit may be any text, known or not.
+
+    >>> number_parts("5 ns"), number_parts("7.6×10⁹"), number_parts("ns")
+    (('5', 'ns'), ('7.6e9', ''), None)
+    """
     plain = _TIMES_TEN.sub(r"e\1", in_ascii(text.strip())) if len(text) < 400 else ""
     match = _NUMBER.fullmatch(plain)
-    if match is None:
-        example = "" if unit == "1" else f" with or without a unit, such as '1 {unit}'"
-        raise ValueError(f"{quoted(text, 40)} is not a finite number{example}")
-    given_unit = match["unit"]
-    if given_unit[:1] == ",":
-        raise ValueError(
-            f"{text!r}: write a decimal comma as a point, and thousands without a comma"
-        )
-    if given_unit and not same_dimension(given_unit, unit):
-        mismatch = f"{given_unit} does not measure what {unit} does"
-        raise ValueError(f"{text!r}: {'give no unit' if unit == '1' else mismatch}")
-    return match["number"], given_unit or "1"
+    return None if match is None else (match["number"], match["unit"].strip())
 
 
 def typed_unit(text: str) -> str:
@@ -271,20 +266,40 @@ def typed_unit(text: str) -> str:
     >>> typed_unit("5 ns"), typed_unit("5e-9"), typed_unit("ns")
     ('ns', '', '')
     """
-    match = _NUMBER.fullmatch(in_ascii(text.strip()))
-    return match["unit"].strip() if match else ""
+    parts = number_parts(text)
+    return parts[1] if parts else ""
 
 
-def read_number(text: str, unit: str) -> float:
+def _number_and_unit(text: str, unit: str, usual: str = "") -> tuple[str, str]:
+    """Return a number and its unit, or the usual one, or "1"; errors are those of `read_number`."""
+    parts = number_parts(text)
+    if parts is None:
+        example = "" if unit == "1" else f" with or without a unit, such as '1 {usual or unit}'"
+        raise ValueError(f"{quoted(text, 40)} is not a finite number{example}")
+    number, given_unit = parts
+    if given_unit[:1] == ",":
+        raise ValueError(
+            f"{text!r}: write a decimal comma as a point, and thousands without a comma"
+        )
+    if given_unit and not same_dimension(given_unit, unit):
+        mismatch = f"{given_unit} does not measure what {unit} does"
+        raise ValueError(f"{text!r}: {'give no unit' if unit == '1' else mismatch}")
+    return number, given_unit or usual or "1"
+
+
+def read_number(text: str, unit: str, usual: str = "") -> float:
     """Read a number, with or without a unit, and convert it to SI.
 
-    Without a unit it is taken as SI. `unit` is an SI unit of the quantity expected. Raises
-    ValueError if the text is not a finite number, or its unit measures another quantity.
+    Without a unit it is in the usual one, if that is given, and else taken as SI. `unit` is an SI
+    unit of the quantity expected. Raises ValueError if the text is not a finite number, or its unit
+    measures another quantity.
 
     >>> read_number("0.5 ns", "s"), read_number("1.1e-5", "m"), read_number("7.6×10⁹ Pa", "Pa")
     (5e-10, 1.1e-05, 7600000000.0)
+    >>> read_number("11", "m", "um")
+    1.1e-05
     """
-    number, given_unit = _number_and_unit(text, unit)
+    number, given_unit = _number_and_unit(text, unit, usual)
     try:
         return float(Fraction(number) * to_si(given_unit))
     except OverflowError as error:

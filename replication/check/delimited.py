@@ -6,16 +6,22 @@ are points or commas. Lines that begin with a mark of comments are skipped, but 
 above the numbers. The digits of each number are kept as they are printed: they are its uncertainty.
 """
 
-import csv
-import math
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 
 from replication.check.words import is_unit
-from replication.columns import csv_rows
+from replication.separated import (
+    Rows,
+    cell_number,
+    commented_heads,
+    file_text,
+    heads_by_blanks,
+    plain_number,
+    separated_rows,
+)
 from replication.user_input import place as named
 from spreadsheets.foreign import (
     MAX_CELLS,
@@ -31,20 +37,10 @@ from spreadsheets.foreign import (
 SUFFIXES = frozenset({".csv", ".tsv", ".tab", ".txt", ".dat"})
 _WORKBOOKS = (b"PK\x03\x04", bytes.fromhex("D0CF11E0A1B11AE1"))
 """How workbooks begin, by whatever name."""
-_SEPARATORS = ("\t", ";", ",", "|", " ")
-_COMMENTS = ("#", "%", "//")
 _ABSENT = frozenset({"", "-", "nan", "na", "n/a", "none", "null"})
 """How programs write that there is no number."""
-_NUMBER = re.compile(r"[-+]?(?:\d+[.,]?\d*|[.,]\d+)(?:[EeDd][-+]?\d{1,3})?")
-_GROUPED = re.compile(r"[-+]?\d{1,3}(?:(?P<mark>[.,])\d{3})(?:(?P=mark)\d{3})*(?!(?P=mark))[.,]\d*")
-"""A number with marks of thousands, and another mark before its decimals."""
-_HEAD = re.compile(r"[^\s\[(]+\s*(?:\[[^\]]*\]|\([^)]*\))?")
-"""A head among others that blanks separate: a name and maybe a unit in brackets."""
 _LEAST = 4
 """The fewest rows of numbers."""
-
-_Rows = dict[int, list[str]]
-"""The cells of the lines that have some, by the number of the line."""
 
 
 def read_any(path: Path) -> Book:
@@ -58,7 +54,7 @@ def read_any(path: Path) -> Book:
     with named(str(path)):
         if len(content) > MAX_FILE:
             raise ValueError(f"has more than {MAX_FILE >> 20} MB")
-        return _book(path, _file_text(content))
+        return _book(path, file_text(content))
 
 
 def where(book: Book, place: Position) -> str:
@@ -72,25 +68,9 @@ def column_at(book: Book, column: int) -> str:
     return f"column {head!r}" if head else f"column {column}"
 
 
-def _file_text(content: bytes) -> str:
-    """The text of a file: UTF-8, UTF-16 with its mark, or as Windows writes it in the West."""
-    if content.startswith((b"\xff\xfe", b"\xfe\xff")):
-        encoding = "utf-16"
-    elif b"\0" in content:
-        raise ValueError("is not text: give rows of numbers as CSV")
-    else:
-        encoding = "utf-8-sig"
-    try:
-        return content.decode(encoding)
-    except UnicodeDecodeError as error:
-        if encoding == "utf-16":
-            raise ValueError("is not text: give rows of numbers as CSV in UTF-8") from error
-        return content.decode("cp1252", errors="replace")
-
-
 def _book(path: Path, text: str) -> Book:
     lines = text.splitlines()
-    rows, separator = _split(lines)
+    rows, separator = separated_rows(lines, _worth)
     numeric = [line for line, cells in rows.items() if _is_row(cells)]
     if len(numeric) < _LEAST:
         some = f"only {len(numeric)}" if numeric else "none"
@@ -104,7 +84,7 @@ def _book(path: Path, text: str) -> Book:
         for column, given in enumerate(texts, 1):
             if given.lower() in _ABSENT:
                 continue
-            value: Value | None = _cell_number(given)
+            value: Value | None = cell_number(given)
             if value is None:
                 value = given[:MAX_TEXT]
             else:
@@ -120,69 +100,17 @@ def _book(path: Path, text: str) -> Book:
 # ---- lines and cells
 
 
-def _split(lines: Sequence[str]) -> tuple[_Rows, str]:
-    """The rows of cells by the separator that gives most lines of numbers."""
-    stated = re.fullmatch(r"\s*sep=(.)\s*", lines[0], re.IGNORECASE) if lines else None
-    candidates = (stated[1],) if stated else _SEPARATORS
-    best: tuple[tuple[int, int], _Rows, str] | None = None
-    problem: ValueError | None = None
-    for separator in candidates:
-        try:
-            rows = dict(_line_cells(lines, separator))
-        except ValueError as error:
-            problem = problem or error
-            continue
-        counts = [len(cells) for cells in rows.values() if _is_row(cells)]
-        score = len(counts), sum(counts)
-        if best is None or score > best[0]:
-            best = score, rows, separator
-    if best is None:
-        assert problem is not None
-        raise problem
-    _, rows, separator = best
-    if stated:
-        rows.pop(1, None)
-    return rows, separator
-
-
-def _line_cells(lines: Sequence[str], separator: str) -> Iterator[tuple[int, list[str]]]:
-    """The cells of each line that is not blank and no comment."""
-    kept = ("" if line.lstrip().startswith(_COMMENTS) else line for line in lines)
-    if separator == " ":
-        kept = (line.expandtabs(1).strip() for line in kept)
-    for line, cells in csv_rows(kept, separator):
-        while cells and not cells[-1]:
-            cells.pop()
-        if cells:
-            yield line, cells
+def _worth(rows: Rows, _: str) -> tuple[int, int]:
+    """How many lines of numbers a separator gives, and how many cells they have."""
+    counts = [len(cells) for cells in rows.values() if _is_row(cells)]
+    return len(counts), sum(counts)
 
 
 def _is_row(cells: Sequence[str]) -> bool:
     """Whether a line is a row of two or more numbers, some of which may be absent."""
-    numbers = sum(_cell_number(cell) is not None for cell in cells)
+    numbers = sum(cell_number(cell) is not None for cell in cells)
     absent = sum(cell.lower() in _ABSENT for cell in cells)
     return numbers > 1 and numbers + absent == len(cells)
-
-
-def _cell_number(text: str) -> float | None:
-    """The number that a cell holds, or None.
-
-    >>> [_cell_number(text) for text in ("1,5e-3", "1.234,5", "1,234.5", "-2.D+01", "v1")]
-    [0.0015, 1234.5, 1234.5, -20.0, None]
-    """
-    plain = _plain_number(text)
-    if not _NUMBER.fullmatch(plain):
-        return None
-    value = float(re.sub("[Dd]", "e", plain.replace(",", ".")))
-    return value if math.isfinite(value) else None
-
-
-def _plain_number(text: str) -> str:
-    """The text of a number without marks of thousands, and with an ordinary minus."""
-    plain = re.sub("[\u00a0\u202f']", "", text.strip()).replace("\u2212", "-")
-    if match := _GROUPED.match(plain):
-        plain = plain.replace(match["mark"], "")
-    return plain
 
 
 def _printed_digits(text: str) -> tuple[int, int]:
@@ -191,7 +119,7 @@ def _printed_digits(text: str) -> tuple[int, int]:
     >>> [_printed_digits(text) for text in ("500.00", "0.050", "1.20e-05", "3000")]
     [(5, -2), (2, -3), (3, -7), (4, 0)]
     """
-    mantissa, *exponent = re.split("[EeDd]", _plain_number(text).replace(",", "."))
+    mantissa, *exponent = re.split("[Ee]", plain_number(text).replace(",", "."))
     whole, _, decimals = mantissa.lstrip("+-").partition(".")
     power = int(exponent[0]) if exponent else 0
     return len((whole + decimals).lstrip("0")), power - len(decimals)
@@ -200,37 +128,21 @@ def _printed_digits(text: str) -> tuple[int, int]:
 # ---- heads
 
 
-def _add_heads(rows: _Rows, lines: Sequence[str], first: int, width: int, separator: str) -> None:
+def _add_heads(rows: Rows, lines: Sequence[str], first: int, width: int, separator: str) -> None:
     """Put the heads above their columns, where they stand in a comment or are shifted."""
     above = [line for line in rows if line < first]
     if separator == " ":
         for line in above:
-            heads = _HEAD.findall(lines[line - 1])
+            heads = heads_by_blanks(lines[line - 1])
             if len(heads) in (width, width - 1):
                 rows[line] = heads
     if not above or max(above) < first - 1:
-        _take_comment(rows, lines, first, width, separator)
+        commented = commented_heads(lines, first, width, separator)
+        rows |= dict([commented]) if commented else {}
     head = max((line for line in rows if line < first), default=None)
-    counted = [_cell_number(cells[0]) for line, cells in rows.items() if line >= first][:_LEAST]
+    counted = [cell_number(cells[0]) for line, cells in rows.items() if line >= first][:_LEAST]
     if head is not None and len(rows[head]) == width - 1 and _counts(counted):
         rows[head] = ["", *rows[head]]  # row numbers mostly have no head
-
-
-def _take_comment(
-    rows: _Rows, lines: Sequence[str], first: int, width: int, separator: str
-) -> None:
-    """Take the heads from the comment above the numbers, if it has as many words as columns."""
-    for line in range(first - 1, 0, -1):
-        text = lines[line - 1].strip()
-        if text and not text.startswith(_COMMENTS):
-            return
-        bare = text.lstrip("#%/").strip()
-        heads = [cell.strip() for cell in next(csv.reader([bare], delimiter=separator), [])]
-        if separator == " " or len(heads) < 2:
-            heads = _HEAD.findall(bare)
-        if len(heads) == width and all(_cell_number(head) is None for head in heads):
-            rows[line] = heads
-            return
 
 
 def _counts(values: Sequence[float | None]) -> bool:

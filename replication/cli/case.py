@@ -233,9 +233,17 @@ def input_in_words(name: str, value: float, digits: int = 8) -> str:
     >>> input_in_words("resistance", 3.5e9), input_in_words("beta", 5.0)
     ('3.5 GPa (3500000000.0 Pa)', '5 (5.0)')
     """
+    return f"{input_rounded(name, value, digits)} ({with_unit(repr(value), INPUTS[name])})"
+
+
+def input_rounded(name: str, value: float, digits: int) -> str:
+    """Return a value (SI) of an input to some digits, in the unit in which it is shown.
+
+    >>> input_rounded("resistance", 3.4600308e9, 4)
+    '3.46 GPa'
+    """
     unit = shown_in(name)
-    short = with_unit(number(Fraction(value) / to_si(unit), digits), unit)
-    return f"{short} ({with_unit(repr(value), INPUTS[name])})"
+    return with_unit(number(Fraction(value) / to_si(unit), digits), unit)
 
 
 def range_in_words(name: str, ends: tuple[float, float]) -> str:

@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.error.ladder import GOVERNED_BY, converge, ladder, step_for_digits
 
     (case, warnings), scheme = case_of(options), options.scheme
-    points = checked(options, _points_of_error, options.case_file)
+    points = checked(options, lambda file: _points_of_error(file, case), options.case_file)
     if options.steps is None:
         steps = ladder(case.step, options.levels)
     else:
@@ -72,10 +72,10 @@ def run(options: argparse.Namespace) -> int:
     )
 
 
-def _points_of_error(file: Path) -> "Points":
-    from replication.plots import DEPTH, ERROR, STEP, read_points
+def _points_of_error(file: Path, case: Impact) -> "Points":
+    from replication.plots import DEPTH, ERROR, STEP, reach_of, read_points
 
-    return read_points(file, STEP, (ERROR, DEPTH))
+    return read_points(file, STEP, (ERROR, DEPTH), reach_of(case))
 
 
 def _convergence_figure(

@@ -48,7 +48,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.models.motion import history, stop_time
 
     case, warnings = case_of(options)
-    points = checked(options, _own_points, options.case_file)
+    points = checked(options, lambda file: _own_points(file, case), options.case_file)
     stop = stop_time(**case.motion)
     if options.times is None:
         asked = [stop * (k / (options.points - 1)) for k in range(options.points)]
@@ -74,10 +74,10 @@ def run(options: argparse.Namespace) -> int:
     return put(options, record, text, rows, warnings, notes)
 
 
-def _own_points(file: Path) -> "Points":
-    from replication.plots import DEPTH, SPEED, TIME, read_points
+def _own_points(file: Path, case: Impact) -> "Points":
+    from replication.plots import DEPTH, SPEED, TIME, reach_of, read_points
 
-    return read_points(file, TIME, (DEPTH, SPEED))
+    return read_points(file, TIME, (DEPTH, SPEED), reach_of(case))
 
 
 def _history_figure(

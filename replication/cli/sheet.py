@@ -9,6 +9,7 @@ from replication.cli.case import add_inputs, case_of, doubted, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme
 from replication.cli.output import paragraph, put
 from replication.cli.picture import add_plot, checked, notes_on, write_picture
+from replication.models.impact import Impact
 from replication.models.sheet import Sheet
 from replication.text import number, numbers
 
@@ -35,7 +36,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.models import sheet
 
     case, warnings = case_of(options)
-    points = checked(options, _own_points, options.case_file)
+    points = checked(options, lambda file: _own_points(file, case), options.case_file)
     with doubted(warnings):
         result = sheet.run(case, options.scheme)
     write_picture(options, lambda: _sheet_figure(result, points))
@@ -69,10 +70,10 @@ def _sheet_text(sheet: Sheet) -> str:
     return "\n".join([case, "", *numbers(heads, table), "", results])
 
 
-def _own_points(file: Path) -> "Points":
-    from replication.plots import DEPTH, SPEED, TIME, read_points
+def _own_points(file: Path, case: Impact) -> "Points":
+    from replication.plots import DEPTH, SPEED, TIME, reach_of, read_points
 
-    return read_points(file, TIME, (DEPTH, SPEED))
+    return read_points(file, TIME, (DEPTH, SPEED), reach_of(case))
 
 
 def _sheet_figure(sheet: Sheet, points: "Points | None") -> "Figure":

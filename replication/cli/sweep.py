@@ -81,9 +81,10 @@ def _checked(options: argparse.Namespace, plan: "Plan", output: Path) -> "Points
         return checked(options, lambda _: None)
     from replication.plots import check_sweep, sweep_points
 
+    greatest = {name: source.bounds[1] for name, source in plan.sources.items()}
     with place(f"--plot: {options.plan}"):
         check_sweep(plan.axes, plan.samples, plan.is_drawn)
-    return checked(options, sweep_points(plan.axes, plan.is_drawn), options.plan, output)
+    return checked(options, sweep_points(plan.axes, plan.is_drawn, greatest), options.plan, output)
 
 
 def _sweep_figure(options: argparse.Namespace, plan: "Plan", points: "Points | None") -> "Figure":

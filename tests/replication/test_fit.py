@@ -171,10 +171,44 @@ def test_usual_names_of_uncertainties_are_known(head: str, tmp_path: Path) -> No
     assert read_measurements(file, BETA_5)[0].uncertainty == 0.5e-6
 
 
+@pytest.mark.parametrize(
+    "heads",
+    [
+        "Geschwindigkeit [m/s];Tiefe [µm];Fehler [µm];Partikeldurchmesser [µm]",
+        "Aufprallgeschwindigkeit in m/s;Eindringtiefe in µm;Unsicherheit in µm;Durchmesser in µm",
+        "vitesse [m/s];profondeur [µm];écart-type [µm];diamètre [µm]",
+        "v0 [m/s];penetration [µm];std dev [µm];D [µm]",
+    ],
+)
+def test_heads_may_be_german_or_french(heads: str, tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_bytes(f"{heads}\r\n500;7,6;0,5;22\r\n".encode("cp1252"))
+    expected = Measurement(500.0, *CASE, 7.6e-6, 0.5e-6, line=2)
+    assert read_measurements(file, BETA_5) == [expected]
+
+
 def test_the_unit_of_an_uncertainty_may_stand_in_its_cells(tmp_path: Path) -> None:
     file = tmp_path / "mine.csv"
     file.write_text("v,x [um],sd\n500,7.6,0.5 um\n", "utf-8")
     assert read_measurements(file, BETA_5)[0].uncertainty == 0.5e-6
+
+
+@pytest.mark.parametrize(
+    ("content", "uncertainty"),
+    [
+        ("v,x [um],sd [%]\n500,8,25\n", 2e-6),
+        ("v,x [um],sd\n500,8,25 %\n", 2e-6),
+        ("v,x/R,sd [percent],R [um]\n500,0.5,25,16\n", 2e-6),
+        ("v,x/R [%],sd [%],R [um]\n500,50,25,16\n", 4e-6),  # a quarter of the radius
+    ],
+)
+def test_a_percentage_is_a_share_of_the_depth(
+    content: str, uncertainty: float, tmp_path: Path
+) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text(content, "utf-8")
+    (measurement,) = read_measurements(file, BETA_5)
+    assert (measurement.depth, measurement.uncertainty) == (8e-6, uncertainty)
 
 
 @pytest.mark.parametrize("head", ["diameter [um]", "D (um)", "Particle dia. [um]", "D_um"])
@@ -189,7 +223,7 @@ def test_of_a_diameter_the_radius_is_half(head: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("content", "message"),
     [
-        ("v,y\n1,2\n", "FILE has no column 'depth': name one so, such as 'depth [m]' (it has 'v', "
+        ("v,y\n1,2\n", "FILE has no column 'depth': it needs one such as 'depth [um]' (it has 'v', "
          "'y')"),
         ("v,x\n500,1e-6\n0,1e-6\n400,-1\n500,0\n",
          "FILE, line 3: velocity is 0: it must be a number greater than zero (line 4, line 5, "
@@ -199,16 +233,18 @@ def test_of_a_diameter_the_radius_is_half(head: str, tmp_path: Path) -> None:
         ("v,x,sigma\n500,1e-6,0\n",
          "FILE, line 2: uncertainty is 0: it must be a number greater than zero"),
         ("v,x [um],sigma\n500,7.6,0.2\n", "FILE, column 'sigma': has no unit, beside 'x [um]': "
-         "write 'sigma [um]' if it is in um"),
+         "write 'sigma [um]' if it is in um, or 'sigma [%]'"),
         ("v,x [um]\n500,7.6 ± 0.2\n", "FILE, line 2, column 'x [um]': '7.6 ± 0.2' is a number "
          "and its uncertainty: put that into a column of its own, 'uncertainty [um]'"),
         ("v,x,D,R\n500,1e-6,2,1\n",
          "FILE has both a radius and a diameter: leave one of them out"),
-        ("speed,deep\n1,2\n", "FILE has no column 'velocity' and no column 'depth': name one so, "
-         "such as 'velocity [m/s]', and name 'deep' so, such as 'depth [m]' (it has 'speed', "
-         "'deep')"),
-        ("v,x [um]\n500,7.6\n400,?\n", "FILE, line 3, column 'x [um]': '? um' is not a finite "
-         "number with or without a unit, such as '1 m'"),
+        ("speed,deep\n1,2\n", "FILE has no column 'velocity' and no column 'depth': it needs one "
+         "such as 'velocity [m/s]'; rename 'deep' to 'depth' (it has 'speed', 'deep')"),
+        ("velocty [m/s],dpeth [um]\n1,2\n", "FILE has no column 'velocity' and no column 'depth': "
+         "rename 'velocty [m/s]' to 'velocity [m/s]'; rename 'dpeth [um]' to 'depth [um]' (it has "
+         "'velocty [m/s]', 'dpeth [um]')"),
+        ("v,x [um]\n500,7.6\n400,?\n", "FILE, line 3, column 'x [um]': '?' is not a finite "
+         "number with or without a unit, such as '1 um'"),
     ],
 )  # fmt: skip
 def test_bad_rows_are_named_by_their_line(content: str, message: str, tmp_path: Path) -> None:

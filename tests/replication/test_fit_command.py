@@ -63,18 +63,24 @@ def test_without_uncertainties_the_scatter_gives_the_error(tmp_path: Path) -> No
     ("content", "line"),
     [
         ("v,x [um]\n500,7.6\n400,?\n,3\n", "FILE, line 4, column 'v': the cell is empty"),
-        ("v,x [um]\n500,7.6\n400,?\n300,\n", "FILE, line 3, column 'x [um]': '? um' is not a "
-         "finite number with or without a unit, such as '1 m' (line 4, too)"),
+        ("v,x [um]\n500,7.6\n400,?\n300,\n", "FILE, line 3, column 'x [um]': '?' is not a "
+         "finite number with or without a unit, such as '1 um' (line 4, too)"),
         ("v,x [um]\n0,7.6\n", "FILE, line 2: velocity is 0: it must be a number greater than zero"),
-        ("v [MPa],x\n500,7.6\n", "FILE, column 'v [MPa]': '1 MPa': MPa does not measure what m/s "
+        ("v [MPa],x\n500,7.6\n", "FILE, column 'v [MPa]': MPa does not measure what m/s "
          "does"),
         ("v,x,X/R\n500,7.6,1\n", "FILE has both a depth and a normalized depth: leave one of them "
          "out"),
-        ("v\n500\n", "FILE has no column 'depth': name one so, such as 'depth [m]' (it has 'v')"),
-        ("v,x\n500,7.6\n", "FILE: line 2: the depth is 6.91e+05 times the radius: does the depth's "
-         "head lack a unit, such as 'depth [um]'?"),
-        ("velocty [m/s],x\n500,7.6\n", "FILE has no column 'velocity': name 'velocty [m/s]' so, "
-         "such as 'velocity [m/s]' (it has 'velocty [m/s]', 'x')"),
+        ("v\n500\n", "FILE has no column 'depth': it needs one such as 'depth [um]' (it has 'v')"),
+        ("v,x\n500,7.6\n", "FILE, line 2: the depth is 6.91e+05 times the radius: is it in um? "
+         "Then write 'x [um]'"),
+        ("v,x\n500,7.6 mm\n", "FILE, line 2: the depth is 691 times the radius: is it in um? Then "
+         "write '7.6 um'"),
+        ("v,x [mm]\n500,10\n", "FILE, line 2: the depth is 909 times the radius: is it in um? Then "
+         "write 'x [um]'"),
+        ("v,X/R\n500,0.6\n500,40\n500,47\n", "FILE, line 3: the depth is 40 times the radius: is "
+         "it in %? Then write 'X/R [%]'"),
+        ("velocty [m/s],x\n500,7.6\n", "FILE has no column 'velocity': rename 'velocty [m/s]' to "
+         "'velocity [m/s]' (it has 'velocty [m/s]', 'x')"),
         ("v,x\n", "FILE: has no row of numbers below a row of heads"),
     ],
 )  # fmt: skip
@@ -85,6 +91,29 @@ def test_bad_rows_are_named_by_file_line_and_column(
     Path("mine.csv").write_text(content, "utf-8")
     line = line.replace("FILE", "mine.csv")
     assert coldspray("fit", "mine.csv") == (2, "", f"coldspray fit: {line}\n")
+
+
+@pytest.mark.parametrize(
+    ("content", "line"),
+    [
+        ("v,Depth [mm]\n400,6.1\n500,7.6\n", "line 2: the depth is 555 times the radius: is "
+         "it in um? Then write 'Depth [um]'"),
+        ("v,x [nm]\n500,7.6\n", "line 2: the depth is 0.000691 times the radius: is it in "
+         "um? Then write 'x [um]'"),
+        ("v,X/R [%]\n500,0.4\n", "line 2: the depth is 0.004 times the radius: is it no "
+         "percentage? Then write 'X/R [1]'"),
+        ("v,x [um]\n500,7600\n500,7.6\n500,7.7\n", "line 2: the depth is 691 times the "
+         "radius: unlike most others: is it a slip?"),
+    ],
+)  # fmt: skip
+def test_a_stated_unit_is_believed_where_a_fit_can_be_computed_and_asked_about(
+    content: str, line: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("mine.csv").write_text(content, "utf-8")
+    status, _, err = coldspray("fit", "mine.csv")
+    assert status == 0
+    assert err.startswith(f"coldspray fit: warning: mine.csv, {line}\n")
 
 
 @pytest.mark.parametrize(
@@ -102,6 +131,31 @@ def test_bad_rows_are_named_by_file_line_and_column(
 )  # fmt: skip
 def test_options_that_say_nothing_are_refused(arguments: str, line: str) -> None:
     assert coldspray("fit", EXAMPLE, *arguments.split()) == (2, "", f"coldspray fit: {line}\n")
+
+
+@pytest.mark.parametrize(
+    ("head", "option"),
+    [
+        ("radius [um]", "--radius"),
+        ("diameter [um]", "--radius"),
+        ("target density", "--target-density"),
+        ("particle density", "--particle-density"),
+    ],
+)
+def test_an_input_is_a_column_or_an_option_but_not_both(
+    head: str, option: str, tmp_path: Path
+) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text(f"v,x [um],{head}\n500,7.6,11\n", "utf-8")
+    line = f"{option}: {file} has the column '{head}': leave out one of the two"
+    assert coldspray("fit", file, option, "5e-6") == (2, "", f"coldspray fit: {line}\n")
+
+
+def test_a_percentage_is_said_to_be_a_share(tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    file.write_text("v,x [um],sd [%]\n500,7.6,3\n450,7,3\n", "utf-8")
+    note = f"{file}: 'sd [%]' is taken as a share of the depth in its line"
+    assert json.loads(coldspray("fit", file, "--json")[1])["notes"] == [note]
 
 
 def test_a_case_without_the_other_factor_cannot_give_this_one(tmp_path: Path) -> None:
@@ -126,6 +180,48 @@ def test_a_value_that_no_impact_has_is_named_by_its_line(
     file.write_text(f"{heads}\n500,7.6\n400,6.1\n", "utf-8")
     expected = f"coldspray fit: warning: {file}, line 2: {warning}\n"
     assert expected in coldspray("fit", file)[2]
+
+
+def test_a_chi_square_that_is_improbable_is_warned_of(tmp_path: Path) -> None:
+    """The depth of line 7, at 420 m/s, is ten times too large: some 270 uncertainties."""
+    file = tmp_path / "mine.csv"
+    file.write_text(EXAMPLE.read_text("utf-8").replace("\n420,6.31,", "\n420,63.1,"), "utf-8")
+    status, out, err = coldspray("fit", file)
+    assert (status, out.count("\n4 ")) == (0, 1)
+    assert err == (
+        f"coldspray fit: warning: {file}: so large a chi square has a chance of less than 1e-99: "
+        "the uncertainties do not account for the residuals, and the standard error by them means "
+        "little; line 7 is off by most, 271 uncertainties\n"
+    )
+    assert json.loads(coldspray("fit", file, "--json")[1])["warnings"] == [
+        err.removeprefix("coldspray fit: warning: ").strip()
+    ]
+    assert coldspray("fit", EXAMPLE)[2] == ""
+
+
+def test_a_line_that_is_far_off_the_others_is_named_and_fitted(tmp_path: Path) -> None:
+    file = tmp_path / "mine.csv"
+    depths = {300: 4.441, 350: 5.156, 400: 6.053, 450: 69.343, 500: 7.849, 550: 8.498}
+    rows = "".join(f"{velocity},{depth}\n" for velocity, depth in depths.items())
+    file.write_text(f"v,x [um]\n{rows}", "utf-8")
+    status, _, err = coldspray("fit", file)
+    assert status == 0
+    assert err.startswith(
+        f"coldspray fit: warning: {file}: line 5 is far off the others: 62.5 um more than they give"
+    )
+    assert json.loads(coldspray("fit", file, "--json")[1])["points"] == 6
+    file.write_text(f"v,x [um]\n{rows.replace('69.343', '6.9343')}", "utf-8")
+    assert coldspray("fit", file)[2] == ""
+
+
+@pytest.mark.parametrize("rows", ["300,4.46\n", "500,7.6\n500,7.7\n500,7.8\n"])
+def test_a_residual_that_is_rounding_is_printed_as_zero(rows: str, tmp_path: Path) -> None:
+    """Of three depths at one velocity the mean is fitted, which is the second of these."""
+    file = tmp_path / "mine.csv"
+    file.write_text(f"v,x [um]\n{rows}", "utf-8")
+    lines = coldspray("fit", file)[1].splitlines()
+    fitted = lines[3] if rows.count("\n") == 1 else lines[4]
+    assert fitted.split()[-1] == "0"
 
 
 def test_columns_that_are_not_known_are_named(tmp_path: Path) -> None:

@@ -322,7 +322,8 @@ def test_a_fit_names_its_result(drawings: dict[str, bytes]) -> None:
     measurements = read_measurements(MEASURED, BETA_5)
     result = fit(BETA_5, measurements)
     assert result.standard_error is not None
-    words = f"fitted resistance {result.value / 1e9:.4g} ± {result.standard_error / 1e9:.2g} GPa"
+    # The standard error is 0.059 GPa: two digits of it are three decimals.
+    words = f"fitted resistance {result.value / 1e9:.3f} ± {result.standard_error / 1e9:.3f} GPa"
     assert words in shown(drawings["fit"])
 
 
@@ -363,6 +364,38 @@ def test_an_error_that_an_axis_shows_is_no_uncertainty(tmp_path: Path) -> None:
     points = plots.read_points(data, plots.STEP, (plots.ERROR, plots.DEPTH))
     assert points.columns[plots.ERROR] == [25e-9]
     assert points.columns[plots.UNCERTAINTY] == [0.1e-6]
+
+
+@pytest.mark.parametrize(
+    ("command", "content", "line"),
+    [
+        ("history", "time,depth\n0,0\n5,2.4\n",
+         "line 3: 'time' is 1.92e+08 times the time until rest: is it in ns? Then write "
+         "'time [ns]'"),
+        ("sheet", "time [ns],depth\n0,0\n5,2.4\n",
+         "line 3: 'depth' is 3.13e+05 times the final depth: is it in um? Then write 'depth [um]'"),
+        ("converge", "dt,x [um]\n0.1,7.6\n0.2,7.7\n",
+         "line 3: 'dt' is 7.67e+06 times the time until rest: is it in ns? Then write 'dt [ns]'"),
+        ("fit", "v,x\n300,4.5\n",
+         "line 2: 'x' is 4.09e+05 times the deepest that is fitted: is it in um? Then write "
+         "'x [um]'"),
+        ("sweep", "v,x\n450,6.6\n",
+         "line 2: 'x' is 6e+05 times the largest radius of the plan: is it in um? Then write "
+         "'x [um]'"),
+    ],
+)  # fmt: skip
+def test_own_points_without_a_unit_that_are_far_off_are_asked_about(
+    command: str, content: str, line: str, tmp_path: Path
+) -> None:
+    """Against the time until rest, 26.079 ns; the depths, 7.675 um, and 10.99 um in fit.csv; and
+    the radius, 11 um."""
+    file = tmp_path / "mine.csv"
+    file.write_text(content, "utf-8")
+    plan = ROOT / "docs" / "sweeps" / "figure-5.toml"
+    files = {"fit": [MEASURED], "sweep": [plan, "-o", tmp_path / "mine.out.csv"]}.get(command, [])
+    drawn = coldspray(command, *files, "--plot", tmp_path / "mine.svg", "--data", file)
+    assert drawn == (2, "", f"coldspray {command}: {file}, {line}\n")
+    assert not (tmp_path / "mine.svg").exists()
 
 
 def test_a_fit_draws_further_points_that_it_does_not_fit(tmp_path: Path) -> None:
