@@ -34,10 +34,20 @@ from spreadsheets.sheets.audit import AS_PRINTED, LIVE_VERDICTS, OTHERWISE, Audi
 from spreadsheets.sheets.case import CaseSheet, prepared_rows
 from spreadsheets.sheets.convergence import LEVELS, NO_ORDER, SMALL, run_inputs
 from spreadsheets.sheets.figures import FIGURE_5_POINTS
-from spreadsheets.sheets.inputs import InputLine, input_lines
+from spreadsheets.sheets.inputs import NO_NUMBER, YOURS, InputLine, input_lines
 from spreadsheets.sheets.solve import MEASURED
 from spreadsheets.sheets.table_a1 import ABOVE, DECIMALS, NO_DIFFERENCE, TABLE_ROWS
 from spreadsheets.verify import rounding_bound
+
+SERIES_BELOW = 1e-8
+"""The workbook takes ln(1 + x) and e^x - 1 as series of two terms for x below this; the third term,
+at most x^3/3, is then less than half of the last digit of the first."""
+
+UM3_PER_M3 = 1e18
+
+SAME_WITHIN = 1e-12
+"""Numbers that differ by this share are the same to the workbook. Programs that round a conversion
+of units differently stay below it; a change that somebody types is above it."""
 
 
 @dataclass(frozen=True)
@@ -63,14 +73,14 @@ class Workbook:
 
 
 def build_workbook(
-    case: Impact | None = None,
+    impact: Impact | None = None,
     scheme: Scheme | str = Scheme.PUBLISHED,
     rows: int | None = None,
     record: Record | None = None,
     *,
     ledger: Ledger | None = None,
 ) -> Workbook:
-    """Build the workbook of a case; without a case, the report's own.
+    """Build the workbook of an impact; without one, the report's own.
 
     The report's own has both of its cases, and what concerns only the report: the sheets with its
     longer time step, the check of Table A-1, and the audit. scheme: a `Scheme`, or its text. rows:
@@ -84,35 +94,33 @@ def build_workbook(
     ('Sheet beta 5', '7.67')
     """
     ledger, scheme, audited = ledger or load(), Scheme(scheme), None
-    impacts = {"low": BETA_3, "high": BETA_5} if case is None else {"case": case}
-    pages = [_case_sheet(slug, impact, scheme) for slug, impact in impacts.items()]
-    typed = _typed_inputs(input_lines(pages, report=case is None), impacts, ledger)
-    si = {entry.name: _si(number, entry.unit) for entry, number in typed.items()}
+    impacts = {"low": BETA_3, "high": BETA_5} if impact is None else {"case": impact}
+    cases = [_case_sheet(slug, of_case, scheme) for slug, of_case in impacts.items()]
+    typed = _typed_inputs(input_lines(cases, report=impact is None), impacts, ledger)
+    si = {line.name: _si(number, line.unit) for line, number in typed.items()}
     # The cases are run with the inputs in their cells, and share all of these but beta.
-    shared = {
-        entry.attribute: si[entry.name] for entry in typed if entry.attribute not in ("", "beta")
-    }
-    computed = [run(replace(impact, **shared), scheme) for impact in impacts.values()]
+    shared = {line.attribute: si[line.name] for line in typed if line.attribute not in ("", "beta")}
+    computed = [run(replace(of_case, **shared), scheme) for of_case in impacts.values()]
     count = prepared_rows(max(sheet.steps for sheet in computed), rows)
-    if case is None:
+    if impact is None:
         from replication.audit.audit import audit
 
         audited = result_of(record or audit(), scheme, ledger)
-        pages += [replace(page, name=f"{page.name} coarse", coarse=True) for page in pages]
+        cases += [replace(case, name=f"{case.name} coarse", coarse=True) for case in cases]
         coarse = [replace(sheet.impact, step=si["dt_coarse"]) for sheet in computed]
-        computed += [run(impact, scheme) for impact in coarse]
+        computed += [run(of_case, scheme) for of_case in coarse]
     runs = [
-        (replace(page, steps=sheet.steps, rows=count), sheet)
-        for page, sheet in zip(pages, computed, strict=True)
+        (replace(case, steps=sheet.steps, rows=count), sheet)
+        for case, sheet in zip(cases, computed, strict=True)
     ]
-    plan = workbook_plan(ledger, [page for page, _ in runs], audited)
+    plan = workbook_plan(ledger, [case for case, _ in runs], audited)
     values = dict(_keyed(_values(ledger, runs, typed, si)))
     if audited is not None:
         values |= live_verdicts(ledger, plan, values, audited)
     warnings = [
-        f"{page.name}: {doubt}"
-        for page, sheet in runs
-        if not page.coarse
+        f"{case.name}: {doubt}"
+        for case, sheet in runs
+        if not case.coarse
         for kind, doubt in doubts_about(sheet).items()
         if kind not in NOTES
     ]
@@ -162,19 +170,19 @@ def _typed_inputs(
 ) -> dict[InputLine, float]:
     """Return the number to type into each input's cell. Raises ValueError outside of its limits."""
     typed = {}
-    for entry in chain.from_iterable(blocks.values()):
-        if entry.attribute:
-            # The name of a beta ends with its case; all other inputs are the same in all cases.
-            case = impacts.get(entry.name.rpartition("_")[2]) or next(iter(impacts.values()))
-            number = _typed(getattr(case, entry.attribute), entry.unit)
+    for line in chain.from_iterable(blocks.values()):
+        if line.attribute:
+            # Only beta belongs to one case; all other inputs are the same in all cases.
+            impact = impacts[line.case] if line.case else next(iter(impacts.values()))
+            number = _typed(getattr(impact, line.attribute), line.unit)
         else:
-            number = entry.of_report(ledger)
-        least, most = entry.limits
+            number = line.of_report(ledger)
+        least, most = line.limits
         if not least <= number <= most:
-            meaning = entry.meaning or ledger.title(entry.source)
-            span = with_unit(f"{least:,.10g} to {most:,.10g}", entry.unit)
+            meaning = line.meaning or ledger.title(line.source)
+            span = with_unit(f"{least:,.10g} to {most:,.10g}", line.unit)
             raise ValueError(f"the workbook takes {span} for the {meaning}, not {number!r}")
-        typed[entry] = number
+        typed[line] = number
     return typed
 
 
@@ -210,16 +218,16 @@ def _values(
     ledger: Ledger, runs: Runs, typed: Mapping[InputLine, float], si: Mapping[str, float]
 ) -> Tree:
     """Return every value but the live verdicts; `si` has the inputs in SI units, by name."""
-    fine = [(page, sheet) for page, sheet in runs if not page.coarse]
+    fine = [(case, sheet) for case, sheet in runs if not case.coarse]
     first, last = fine[0][1].impact, fine[-1][1].impact
     values = _inputs(ledger, fine, typed, si)
-    for page, sheet in runs:
-        values |= _case_values(page, sheet, si)
-    for page in (page for page, _ in runs if page.coarse):
-        values |= _comparison(page, values)
+    for case, sheet in runs:
+        values |= _case_values(case, sheet, si)
+    for case in (case for case, _ in runs if case.coarse):
+        values |= _comparison(case, values)
     values |= _overview(runs, values) | _table(*fine[-1])
-    for page, sheet in fine:
-        values |= _figure_3_curve(page, sheet)
+    for case, sheet in fine:
+        values |= _figure_3_curve(case, sheet)
     return (
         values
         | {"figure_5": _figure_5(last, si), "convergence": _convergence(fine, values)}
@@ -235,11 +243,14 @@ def _inputs(
 ) -> Tree:
     """Return the values of the sheet Inputs: typed, in use, and what follows from them."""
     first = runs[0][1].impact
-    changed = {entry.name for entry, number in typed.items() if number != entry.of_report(ledger)}
+    changed = {line.name for line, number in typed.items() if number != line.of_report(ledger)}
     values: Tree = {
         "pi_": math.pi,
         "ksi_Pa": to_si("ksi"),
         "L_most": inverse.LARGEST_LOGARITHM,
+        "series_below": SERIES_BELOW,
+        "um3_per_m3": UM3_PER_M3,
+        "same_within": SAME_WITHIN,
         "travel_most": COARSE,
         "excess_most": DIGITS,
         "off_stop_most": OFF_STOP,
@@ -256,37 +267,50 @@ def _inputs(
         "inputs.unlike": "",
         "inputs.message": (message := messages.CHANGED if changed else messages.UNCHANGED),
         **_said_of(messages.INPUTS_SAY, message),
-        **{page.resistance: sheet.impact.target_resistance for page, sheet in runs},
+        **{case.resistance: sheet.impact.target_resistance for case, sheet in runs},
     }
-    for entry, number in typed.items():
-        name = entry.name
-        unchanged = "as inferred" if name == "rho_t" else "the report’s"
-        check = "yours" if name in changed else unchanged
+    for line, number in typed.items():
+        name = line.name
+        check = YOURS if name in changed else line.whose
         values[name] = si[name]
-        values |= {f"{name}.{key}": number for key in ("typed", "number", "taken", "accepted")}
-        values |= {f"{name}.{key}": check for key in ("check", "whose")}
-        values |= {f"{name}.{key}": "" for key in ("below", "above", "fault")}
+        values |= {
+            f"{name}.typed": number,
+            f"{name}.taken": number,
+            f"{name}.check": check,
+            f"{name}.whose": check,
+            **_within_limits(name, number),
+        }
     return values
 
 
-def _case_values(page: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
+def _within_limits(key: str, number: float | None) -> Tree:
+    """Return the cells that check a number, which is within its limits, or none is typed."""
+    if number is None:
+        not_available = dict.fromkeys(("number", "below", "above", "accepted"), NOT_AVAILABLE)
+        checks: Tree = {**not_available, "fault": NO_NUMBER}
+    else:
+        checks = {"number": number, "below": "", "above": "", "fault": "", "accepted": number}
+    return {f"{key}.{end}": value for end, value in checks.items()}
+
+
+def _case_values(case: CaseSheet, sheet: Sheet, si: Mapping[str, float]) -> Tree:
     """Return the values of the sheet of a case: its inputs, rows, results, and their state."""
     impact = sheet.impact
     repeated = {
         **impact.motion,
         **{name: getattr(impact, name) for name in ("mass", "diameter", "step", "stop_velocity")},
-        "row": _row_columns(sheet, page.rows),
-        "renamed": None if page.resistance_given else "",
+        "row": _row_columns(sheet, case.rows),
+        "renamed": None if case.resistance_given else "",
     }
-    quantities = {"label": page.label, **_results(sheet, si), **_exact(impact), **_state(sheet)}
-    if page.coarse:
+    quantities = {"label": case.label, **_results(sheet, si), **_exact(impact), **_state(sheet)}
+    if case.coarse:
         quantities["longer"] = longer = impact.step > si["dt_s"]
         quantities |= _state_and_words("finer", not longer, messages.NOT_COARSER)
-    if not page.resistance_given:
+    if not case.resistance_given:
         quantities["other_beta"] = False
         quantities |= _state_and_words("renamed", False, messages.KEEPS_NAME)
-    named = {f"{name}{page.suffix}": value for name, value in quantities.items()}
-    return {page.part: repeated, **named}
+    named = {f"{name}{case.suffix}": value for name, value in quantities.items()}
+    return {case.part: repeated, **named}
 
 
 def _results(sheet: Sheet, si: Mapping[str, float]) -> Tree:
@@ -375,39 +399,39 @@ def _message(sheet: Sheet) -> str:
     return messages.STEP_TOO_LONG if "coarse" in kinds else messages.DOUBTFUL
 
 
-def _comparison(page: CaseSheet, values: Tree) -> Tree:
+def _comparison(case: CaseSheet, values: Tree) -> Tree:
     """Compare the depth of a sheet with the coarser step with that of the finer one."""
-    fine, depth_um = values[f"depth_um{page.input_suffix}"], values[f"depth_um{page.suffix}"]
+    fine, depth_um = values[f"depth_um{case.input_suffix}"], values[f"depth_um{case.suffix}"]
     return {
-        f"fine_depth_um{page.suffix}": fine,
-        f"over_fine{page.suffix}": depth_um / fine if fine else NOT_AVAILABLE,
+        f"fine_depth_um{case.suffix}": fine,
+        f"over_fine{case.suffix}": depth_um / fine if fine else NOT_AVAILABLE,
     }
 
 
-def _said(page: CaseSheet, values: Tree) -> str:
+def _said(case: CaseSheet, values: Tree) -> str:
     """Return the label of a case with the state of its run."""
-    return f"{page.label}: {values[f'message{page.suffix}']}"
+    return f"{case.label}: {values[f'message{case.suffix}']}"
 
 
 def _overview(runs: Runs, values: Tree) -> Tree:
     names = "inputs_changed", "inputs_unusable"
     shown: Tree = {name: values[name] for name in names}
-    for page, _ in runs:
-        shown[page.part] = {
-            "depth_um": values[f"depth_um{page.suffix}"],
-            "exact_um": values[f"X_rest{page.suffix}"],
-            "normalized_depth": values[f"normalized_depth{page.suffix}"],
-            "message": _said(page, values),
+    for case, _ in runs:
+        shown[case.part] = {
+            "depth_um": values[f"depth_um{case.suffix}"],
+            "exact_um": values[f"X_rest{case.suffix}"],
+            "normalized_depth": values[f"normalized_depth{case.suffix}"],
+            "message": _said(case, values),
         }
-    curves = {page.slug: {"message": _said(page, values)} for page, _ in runs if not page.coarse}
+    curves = {case.slug: {"message": _said(case, values)} for case, _ in runs if not case.coarse}
     return {"overview": shown, "figure_3": curves}
 
 
-def _table(page: CaseSheet, sheet: Sheet) -> Tree:
+def _table(case: CaseSheet, sheet: Sheet) -> Tree:
     """Return the cells of Table A-1, which are the first rows of a case."""
     impact = sheet.impact
     above = {**impact.motion, "mass": impact.mass, "diameter": impact.diameter}
-    columns = _row_columns(sheet, page.rows)
+    columns = _row_columns(sheet, case.rows)
     rows = {
         name: cells[:TABLE_ROWS]
         for name, cells in columns.items()
@@ -416,10 +440,10 @@ def _table(page: CaseSheet, sheet: Sheet) -> Tree:
     return {"table": {name: above[name] for name in ABOVE} | {"row": rows}}
 
 
-def _figure_3_curve(page: CaseSheet, sheet: Sheet) -> Tree:
+def _figure_3_curve(case: CaseSheet, sheet: Sheet) -> Tree:
     """Return a curve of Figure 3 in ns and µm; after the stop, the last row is repeated."""
-    rows = [sheet.rows[min(k, sheet.steps)] for k in range(page.rows + 1)]
-    key = f"figure_3.{page.slug}"
+    rows = [sheet.rows[min(k, sheet.steps)] for k in range(case.rows + 1)]
+    key = f"figure_3.{case.slug}"
     return {
         f"{key}.time": [row.time * 1e9 for row in rows],
         f"{key}.depth": [row.depth * 1e6 for row in rows],
@@ -440,10 +464,10 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
     With it come the inputs of these runs, and those in use.
     """
     of_runs = {}
-    for name in run_inputs([page for page, _ in runs]):
+    for name in run_inputs([case for case, _ in runs]):
         of_runs[name] = inputs[name] * SMALL[name][0] if name in SMALL else inputs[name]
     values: Tree = {"message": messages.CURRENT, "says": messages.CURRENT, "all_same": 1}
-    for page, sheet in runs:
+    for case, sheet in runs:
         time_steps = ladder(sheet.impact.step, LEVELS)
         rest = depth.final_depth(**sheet.impact.motion) * 1e6
         levels = [run(replace(sheet.impact, step=step), sheet.scheme) for step in time_steps]
@@ -451,7 +475,7 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
         errors = [reached - rest for reached in depths]
         steps = [level.steps for level in levels]
         orders = map(error_order, errors, errors[1:], steps)
-        values[page.slug] = {
+        values[case.slug] = {
             "rest_um": rest,
             "step": time_steps,
             "step_ns": [step * 1e9 for step in time_steps],
@@ -466,56 +490,68 @@ def _convergence(runs: Runs, inputs: Tree) -> Tree:
 
 
 def _frank_zook(impact: Impact, si: Mapping[str, float]) -> Tree:
-    ratio, k_t = estimates.sphere_length_ratio(), si["k_t"]
-    v, target = impact.velocity, impact.target_density
-    values: Tree = {"L_D": ratio, "frank_zook": {}}
-    for steel in ("RHA", "lower"):
-        r_t = si[f"R_t_{steel}"]
-        z = k_t * target * v * v / r_t
-        arguments = ratio, impact.particle_density, target, si["k_1"], k_t, r_t, v
-        values["frank_zook"][f"R_t_{steel}"] = r_t
-        values |= {
-            f"z_{steel}": z,
-            f"ln_{steel}": math.log1p(z),
-            f"X_R_{steel}": estimates.frank_zook_as_printed(*arguments),
-            f"X_R_{steel}_derived": estimates.frank_zook_derived(*arguments),
-        }
-    return values
+    """Return the depths by Frank and Zook, for the armor and for the lower resistance."""
+    ratio, k_1, k_t = estimates.sphere_length_ratio(), si["k_1"], si["k_t"]
+    v, particle, target = impact.velocity, impact.particle_density, impact.target_density
+    armor, lower = si["R_t_RHA"], si["R_t_lower"]
+    drag = k_t * target * v * v
+    of_armor = ratio, particle, target, k_1, k_t, armor, v
+    of_lower = ratio, particle, target, k_1, k_t, lower, v
+    return {
+        "L_D": ratio,
+        "frank_zook": {"R_t_RHA": armor, "R_t_lower": lower},
+        "z_RHA": drag / armor,
+        "ln_RHA": math.log1p(drag / armor),
+        "X_R_RHA": estimates.frank_zook_as_printed(*of_armor),
+        "X_R_RHA_derived": estimates.frank_zook_derived(*of_armor),
+        "z_lower": drag / lower,
+        "ln_lower": math.log1p(drag / lower),
+        "X_R_lower": estimates.frank_zook_as_printed(*of_lower),
+        "X_R_lower_derived": estimates.frank_zook_derived(*of_lower),
+    }
 
 
 def _crater(impact: Impact, si: Mapping[str, float], third: float) -> Tree:
+    """Return the values of the sheet Crater, block by block."""
     radius = si["D_mean"] / 2
-    volume = crater.volume(radius)
-    volume_um3 = volume * 1e6 * 1e6 * 1e6
+    particle_volume = crater.volume(radius)
+    observed = crater.normalized_depth_from_volume_ratio(si["CV_PV"])
+    observed_depth = observed * radius
+    observed_volume = crater.cap_volume(observed_depth, radius)
+    on_line = crater.normalized_depth_from_volume_ratio(si["CV_PV_line"])
+    line_depth = on_line * radius
+    line_volume = crater.cap_volume(line_depth, radius)
     contact = crater.contact_diameter(third, si["D_mean"])
-    values: Tree = {
-        "PV_m3": volume,
-        "PV_um3": volume_um3,
-        "CV_line_um3": si["CV_PV_line"] * volume_um3,
+    least_mass = particle_mass(si["d_min"] / 2, impact.particle_density)
+    greatest_mass = particle_mass(si["d_max"] / 2, impact.particle_density)
+    return {
+        "PV_m3": particle_volume,
+        "PV_um3": particle_volume * UM3_PER_M3,
+        "h_crater": math.asin(math.sqrt(si["CV_PV"])) / 3,
+        "X_R_crater": observed,
+        "X_D_crater": observed / 2,
+        "X_crater": observed_depth,
+        "X_crater_um": observed_depth * 1e6,
+        "CV_crater": observed_volume,
+        "CV_crater_um3": observed_volume * UM3_PER_M3,
+        "CV_PV_again": crater.volume_ratio(observed),
+        "CV_line_um3": si["CV_PV_line"] * (particle_volume * UM3_PER_M3),
+        "h_line": math.asin(math.sqrt(si["CV_PV_line"])) / 3,
+        "X_R_line": on_line,
+        "X_D_line": on_line / 2,
+        "X_line": line_depth,
+        "X_line_um": line_depth * 1e6,
+        "CV_line": line_volume,
+        "CV_line_again_um3": line_volume * UM3_PER_M3,
+        "CV_PV_line_again": crater.volume_ratio(on_line),
         "y_contact": third,
         "contact": contact,
         "contact_um": contact * 1e6,
+        "m_min": least_mass,
+        "V_min": estimates.particle_velocity(impact.velocity, least_mass, impact.mass),
+        "m_max": greatest_mass,
+        "V_max": estimates.particle_velocity(impact.velocity, greatest_mass, impact.mass),
     }
-    for which, name in (("crater", "CV_PV"), ("line", "CV_PV_line")):
-        y = crater.normalized_depth_from_volume_ratio(si[name])
-        x = y * radius
-        volume = crater.cap_volume(x, radius)
-        volume_key = {"crater": "CV_crater_um3", "line": "CV_line_again_um3"}[which]
-        values |= {
-            f"h_{which}": math.asin(math.sqrt(si[name])) / 3,
-            f"X_R_{which}": y,
-            f"X_D_{which}": y / 2,
-            f"X_{which}": x,
-            f"X_{which}_um": x * 1e6,
-            f"CV_{which}": volume,
-            volume_key: volume * 1e6 * 1e6 * 1e6,
-            f"{name}_again": crater.volume_ratio(y),
-        }
-    for which, size in (("min", "d_min"), ("max", "d_max")):
-        mass = particle_mass(si[size] / 2, impact.particle_density)
-        velocity = estimates.particle_velocity(impact.velocity, mass, impact.mass)
-        values |= {f"m_{which}": mass, f"V_{which}": velocity}
-    return values
 
 
 def _resistance(runs: Runs, si: Mapping[str, float]) -> Tree:
@@ -537,13 +573,13 @@ def _resistance(runs: Runs, si: Mapping[str, float]) -> Tree:
         "mean_over_bulk": mean / grains["bulk"],
         "strain_rate": estimates.strain_rate(si["V_impact"], si["L_typ"]),
     }
-    for page, sheet in runs:
+    for case, sheet in runs:
         impact, r_t = sheet.impact, sheet.impact.target_resistance
         stress = estimates.centerline_stress(impact.target_density, impact.velocity, r_t)
         values |= {
-            f"resistance.{page.resistance}": r_t,
-            f"stress{page.input_suffix}": stress,
-            f"stress_over_copper{page.input_suffix}": stress / si["Y_copper"],
+            f"resistance.{case.resistance}": r_t,
+            f"stress{case.input_suffix}": stress,
+            f"stress_over_copper{case.input_suffix}": stress / si["Y_copper"],
         }
     return values
 
@@ -560,9 +596,9 @@ def _solve(ledger: Ledger, runs: Runs) -> Tree:
     logarithm = ratio * (target / particle)
     values: Tree = {
         "solve.depth": typed,
-        "solve.depth.accepted": typed,
+        **_within_limits("solve.depth", typed),
         "solve.ratio": "",
-        "solve.ratio.accepted": "",
+        **_within_limits("solve.ratio", None),
         "by_ratio": 0,
         "y_meas": y,
         "X_meas": y * radius,
@@ -593,8 +629,8 @@ def _solve(ledger: Ledger, runs: Runs) -> Tree:
         "X_R_back": back["normalized_depth"],
         "X_back_um": back["depth_um"],
     }
-    for page, sheet in runs:
-        impact, s = sheet.impact, page.input_suffix
+    for case, sheet in runs:
+        impact, s = sheet.impact, case.input_suffix
         r_t = impact.target_resistance
         if impact.beta is not None and impact.flow_stress is not None:
             of_resistance["beta_meas"] = resistance / impact.flow_stress
@@ -713,9 +749,9 @@ def _compared(number: Fraction, interval: Interval) -> dict[str, bool]:
     """Return whether a number keeps to each end of an interval, by end; ends are as doubles."""
     conditions = {}
     if interval.is_point:
-        # To nine digits, since no double is exactly 2/3.
+        # Not to the last digit, since no double is exactly 2/3.
         (exact, _) = interval.ends
-        conditions["above"] = abs(number - exact) * 10**9 <= abs(exact)
+        conditions["above"] = abs(number - exact) <= Fraction(SAME_WITHIN) * abs(exact)
     else:
         if interval.lower is not None:
             low = Fraction(float(interval.lower))

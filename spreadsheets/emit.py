@@ -144,15 +144,15 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, ShownValue]) -> bytes:
     book.set_properties(dict(plan.properties))
     book.set_custom_property(_SEAL, _UNSEALED)
     for sheet in plan.sheets:
-        page = book.add_worksheet(sheet.name)
-        _set_up(page, sheet, unlocked)
+        worksheet = book.add_worksheet(sheet.name)
+        _set_up(worksheet, sheet, unlocked)
         for address, cell in sheet.cells.items():
             look = style(cell.style, cell.shown, cell.wrap, bool(cell.formula))
-            _write_cell(page, address, cell, shown[sheet.name].get(address, ""), look)
+            _write_cell(worksheet, address, cell, shown[sheet.name].get(address, ""), look)
             if cell.style == "title":
-                page.set_row(int(address[1:]) - 1, TITLE_HEIGHT)
+                worksheet.set_row(int(address[1:]) - 1, TITLE_HEIGHT)
             if takes_two_lines(sheet, address, cell):
-                page.set_row(int(address[1:]) - 1, 2 * sheet.row_height)
+                worksheet.set_row(int(address[1:]) - 1, 2 * sheet.row_height)
             if cell.named:
                 named = f"={_absolute(sheet.name, address)}"
                 if book.define_name(cell.key, named) == -1:
@@ -164,10 +164,10 @@ def to_bytes(plan: WorkbookPlan, values: Mapping[str, ShownValue]) -> bytes:
                 "criteria": rule.formula,
                 "format": book.add_format(RULES[rule.style]),
             }
-            page.conditional_format(rule.cells, options)
+            worksheet.conditional_format(rule.cells, options)
         for chart in sheet.charts:
             drawn = chart.sheet or sheet.name
-            _draw(book, page, drawn, chart, shown[drawn], values)
+            _draw(book, worksheet, drawn, chart, shown[drawn], values)
     book.close()
     parts = _archive_parts(file.getvalue())
     corrected = {name: _corrected(name, part) for name, part in parts.items()}
@@ -203,56 +203,56 @@ _FREE = (
 """What protection leaves free: everything but typing into locked cells."""
 
 
-def _set_up(page: Any, sheet: SheetPlan, unlocked: Any) -> None:
+def _set_up(worksheet: Any, sheet: SheetPlan, unlocked: Any) -> None:
     """Set how a sheet scrolls and prints, its protection, and its column widths."""
-    page.protect(options=dict.fromkeys(_FREE, True))
-    page.hide_gridlines(2)
+    worksheet.protect(options=dict.fromkeys(_FREE, True))
+    worksheet.hide_gridlines(2)
     if sheet.headed:
         scrolling, first, last = sheet.headed
-        page.freeze_panes(f"{scrolling}{last + 1}")
-        page.repeat_rows(first - 1, last - 1)
+        worksheet.freeze_panes(f"{scrolling}{last + 1}")
+        worksheet.repeat_rows(first - 1, last - 1)
     # Blank cells take the format of their column; the other columns follow in `_CORRECTIONS`.
-    page.set_column("A:Z", None, unlocked)
+    worksheet.set_column("A:Z", None, unlocked)
     for column, width in sheet.widths.items():
-        page.set_column(f"{column}:{column}", width, unlocked)
-    page.set_default_row(sheet.row_height)
-    page.set_portrait() if sheet.portrait else page.set_landscape()
-    page.set_paper(1)  # US Letter
-    page.set_margins(**MARGINS)
-    page.fit_to_pages(1, sheet.most_pages)
-    page.set_header('&L&"Arial"&8&F&R&"Arial"&8&A', {"margin": 0.22})
-    page.set_footer('&R&"Arial"&8Page &P of &N', {"margin": 0.2})
+        worksheet.set_column(f"{column}:{column}", width, unlocked)
+    worksheet.set_default_row(sheet.row_height)
+    worksheet.set_portrait() if sheet.portrait else worksheet.set_landscape()
+    worksheet.set_paper(1)  # US Letter
+    worksheet.set_margins(**MARGINS)
+    worksheet.fit_to_pages(1, sheet.most_pages)
+    worksheet.set_header('&L&"Arial"&8&F&R&"Arial"&8&A', {"margin": 0.22})
+    worksheet.set_footer('&R&"Arial"&8Page &P of &N', {"margin": 0.2})
     if sheet.print_area:
-        page.print_area(sheet.print_area)
+        worksheet.print_area(sheet.print_area)
     if sheet.filtered:
-        page.autofilter(sheet.filtered)
+        worksheet.autofilter(sheet.filtered)
     # Excel would mark printed numbers, which are texts, and formulas that differ by design from
     # their neighbors, and cells that are not computed.
     kinds = ("number_stored_as_text", "formula_differs", "formula_range", "eval_error")
-    page.ignore_errors(dict.fromkeys(kinds, "A1:XFD1048576"))
+    worksheet.ignore_errors(dict.fromkeys(kinds, "A1:XFD1048576"))
 
 
-def _write_cell(page: Any, address: str, cell: Cell, value: ShownValue, style: Any) -> None:
+def _write_cell(worksheet: Any, address: str, cell: Cell, value: ShownValue, style: Any) -> None:
     """Write one cell; for an input, also what may be typed into it."""
     if cell.formula:
-        page.write_formula(address, _Expanded(cell.formula.removeprefix("=")), style, value)
+        worksheet.write_formula(address, _Expanded(cell.formula.removeprefix("=")), style, value)
     elif cell.link:
         sheet, target = cell.link
-        page.write_url(address, f"internal:'{sheet}'!{target}", style, cell.text)
+        worksheet.write_url(address, f"internal:'{sheet}'!{target}", style, cell.text)
     elif isinstance(value, str):
-        write = page.write_string if value else page.write_blank
+        write = worksheet.write_string if value else worksheet.write_blank
         write(address, value, style)
     else:
-        page.write_number(address, _Exact(value), style)
+        worksheet.write_number(address, _Exact(value), style)
     # A spreadsheet program shows these words before an input is typed, and if it is refused.
     if cell.choices:
-        page.data_validation(address, {"validate": "list", "source": list(cell.choices)})
+        worksheet.data_validation(address, {"validate": "list", "source": list(cell.choices)})
     elif cell.limits:
         least, most = cell.limits
         words = f"A number from {least:,.10g} to {most:,.10g} {written(cell.unit)}".rstrip() + "."
         limits = {"validate": "decimal", "criteria": "between", "minimum": least, "maximum": most}
         messages = {"input_message": words, "error_title": "Out of range", "error_message": words}
-        page.data_validation(address, limits | messages)
+        worksheet.data_validation(address, limits | messages)
 
 
 def _absolute(sheet: str, cells: str) -> str:
@@ -288,10 +288,10 @@ _GRID = {"visible": True, "line": {"color": "#D0D7DE", "width": 0.75}}
 
 
 def _draw(
-    book: Any, page: Any, name: str, chart: Chart, shown: Mapping[str, ShownValue],
+    book: Any, worksheet: Any, name: str, chart: Chart, shown: Mapping[str, ShownValue],
     values: Mapping[str, ShownValue],
 ) -> None:  # fmt: skip
-    """Draw a chart of the cells of the sheet `name` on a page; `shown` is what they show."""
+    """Draw a chart of the cells of the sheet `name` on a worksheet; `shown` is what they show."""
     drawn = book.add_chart({"type": "scatter", "subtype": "straight"})
     for curve in chart.curves:
         look = CURVES[curve.beta]
@@ -315,7 +315,7 @@ def _draw(
     drawn.set_y_axis({"name": chart.y_title, **axis})
     drawn.set_legend({"position": "bottom", "font": _FONT})
     drawn.set_size(dict(zip(("width", "height"), chart.size, strict=True)))
-    page.insert_chart(chart.at, drawn, {"description": chart.describe(values)})
+    worksheet.insert_chart(chart.at, drawn, {"description": chart.describe(values)})
 
 
 def _charted(cells: str, shown: Mapping[str, ShownValue]) -> list[float | None]:

@@ -20,25 +20,25 @@ from spreadsheets.sheets.inputs import inputs_sheet
 from spreadsheets.sheets.overview import overview, program, title_of
 from spreadsheets.sheets.resistance import resistance
 from spreadsheets.sheets.solve import solve
-from spreadsheets.sheets.table_a1 import table_a1
+from spreadsheets.sheets.table_a1 import TABLE_ROWS, table_a1
 
 
 def workbook_plan(
-    ledger: Ledger, pages: Sequence[CaseSheet], audited: AuditResult | None = None
+    ledger: Ledger, cases: Sequence[CaseSheet], audited: AuditResult | None = None
 ) -> WorkbookPlan:
     """Plan the workbook for one or two cases; `Table A-1` and Figure 5 show the last of them.
 
     With `audited` it is the report's own workbook, and also has what concerns only the report;
-    `pages` must then contain the same cases with the coarser step, too.
+    `cases` must then have each case with the coarser step, too.
     """
-    report, cases = audited is not None, [page for page in pages if not page.coarse]
-    sheets = [inputs_sheet(ledger, cases, report), table_a1(ledger, cases[-1], report)]
-    sheets += [case_sheet(ledger, page) for page in pages]
-    sheets += [figures(ledger, cases), convergence(ledger, cases), crater(ledger)]
-    sheets += [resistance(ledger, cases), solve(ledger, cases)]
+    report, fine = audited is not None, [case for case in cases if not case.coarse]
+    sheets = [inputs_sheet(ledger, fine, report), table_a1(ledger, fine[-1], report)]
+    sheets += [case_sheet(ledger, case) for case in cases]
+    sheets += [figures(ledger, fine), convergence(ledger, fine), crater(ledger)]
+    sheets += [resistance(ledger, fine), solve(ledger, fine)]
     computed_in = WorkbookPlan(sheets=tuple(sheets)).claims
     sheets += [audit_sheet(ledger, audited, computed_in)] if audited else []
-    sheets = [overview(ledger, pages, sheets, audited, computed_in), *sheets]
+    sheets = [overview(ledger, cases, sheets, audited, computed_in), *sheets]
     for sheet in sheets:
         sheet.rules.append(_faint_where_not_available(sheet))
     return WorkbookPlan(sheets=tuple(sheets), properties=_properties(ledger))
@@ -66,11 +66,11 @@ def _properties(ledger: Ledger) -> dict[str, str]:
 
 
 def report_cases() -> list[CaseSheet]:
-    """Return the sheets of the report's two cases, without rows."""
+    """Return the sheets of the report's two cases, with no more rows than Table A-1 shows."""
     return [
         CaseSheet(
             name=f"Sheet beta {beta}", slug=slug, label=f"β = {beta}", scheme=Scheme.PUBLISHED,
-            beta=beta, is_reports=True, resistance_given=False,
+            beta=beta, is_reports=True, resistance_given=False, rows=TABLE_ROWS - 1,
         )
         for slug, beta in (("low", "3"), ("high", "5"))
     ]  # fmt: skip

@@ -141,8 +141,8 @@ def _conditions(claim: Claim, row: int, shown: str) -> dict[str, Cell]:
     interval, key = claim.interval(), f"audit.{claim.id}"
     above = below = ""
     if interval.is_point:
-        # To nine digits, since no double is 2/3 and programs round it differently.
-        above = f"ABS(J{row}-H{row})*1000000000<=ABS(H{row})"
+        # Not to the last digit, since no double is 2/3 and programs round it differently.
+        above = f"ABS(J{row}-H{row})<=same_within*ABS(H{row})"
     else:
         if interval.lower is not None:
             above = f"J{row}{'>=' if interval.lower_closed else '>'}H{row}"
@@ -153,6 +153,7 @@ def _conditions(claim: Claim, row: int, shown: str) -> dict[str, Cell]:
         cells["K"] = formula(f"{key}.above", f"=IF({above},1,0)", shown=YES_OR_NO)
     if below:
         cells["L"] = formula(f"{key}.below", f"=IF({below},1,0)", shown=YES_OR_NO)
+    # The smaller of both is 1 if both hold: with AND, what says the verdict would test two things.
     inside = f"MIN(K{row},L{row})" if above and below else f"K{row}" if above else f"L{row}"
     verdict = f'=IF({inside}=1,"{AS_PRINTED}","{OTHERWISE}")'
     return cells | {"M": formula(f"{key}.prints_so", verdict, "text")}

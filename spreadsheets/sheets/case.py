@@ -117,14 +117,14 @@ def prepared_rows(steps: int, wanted: int | None = None) -> int:
 # of operations: it decides the last digit.
 
 
-def next_index(row: int, step: int, index: str) -> str:
-    """Return the formula of column A: an index, or the time, down to the row below v_stop.
+def next_index(row: int, step: int) -> str:
+    """Return the formula of column A: the number of the row, down to the one below v_stop.
 
     To compare a blank cell with "" instead of asking ISNUMBER fails in two spreadsheet programs.
     """
     above = row - 1
     velocity = f"C{above}" if step == 1 else f"F{above}"  # row 0 has no final velocity
-    return f'=IF(ISNUMBER(A{above}),IF({velocity}<v_stop,"",{index}),"")'
+    return f'=IF(ISNUMBER(A{above}),IF({velocity}<v_stop,"",A{above}+1),"")'
 
 
 def step_formulas(case: CaseSheet, row: int, step: int, middle: str) -> dict[str, str]:
@@ -193,7 +193,7 @@ def _row_formulas(case: CaseSheet, step: int) -> dict[str, str]:
         return _impact_formulas(case)
     row = FIRST_ROW + step
     return {
-        "A": next_index(row, step, f"A{row - 1}+1"),
+        "A": next_index(row, step),
         "B": if_in_use(row, f"A{row}*{case.time_step}"),
         **step_formulas(case, row, step, middle="H"),
         "G": if_in_use(row, f"D{row}*1000000"),
@@ -440,7 +440,8 @@ def _state(sheet: SheetPlan, case: CaseSheet) -> None:
     )
     sheet.line(
         f"too_long{s}", "", "the time step is too long",
-        f"=IF(travel{s}-travel_most>travel_most/1000000000000,1,0)",
+        # By more than the rounding of decimal inputs.
+        f"=IF(travel{s}>travel_most*(1+same_within),1,0)",
         source="Δt V/R above travel_most", shown=YES_OR_NO,
     )  # fmt: skip
     sheet.line(
@@ -480,7 +481,8 @@ def _state(sheet: SheetPlan, case: CaseSheet) -> None:
 def _said(sheet: SheetPlan, case: CaseSheet) -> None:
     """Add the states of which one holds, each with what A3 says of it.
 
-    Without a stop, only the first two have values. The smaller of two states is 1 if both hold.
+    Without a stop, only the first two have values. Programs differ in AND(0=1,#N/A), so the first
+    condition of an AND is always one that is #N/A if any of them is.
     """
     s = case.suffix
     sheet.row += 1
@@ -489,17 +491,17 @@ def _said(sheet: SheetPlan, case: CaseSheet) -> None:
     def state(name: str, meaning: str, expression: str) -> None:
         sheet.state(f"{name}{s}", meaning, expression, messages.RUN_SAYS[name])
 
-    state("both", "out of rows; step too long", f"=MIN(1-stopped{s},too_long{s})")
-    state("rows", "out of rows", f"=1-stopped{s}-is_both{s}")
+    state("both", "out of rows; step too long", f"=IF(AND(stopped{s}=0,too_long{s}=1),1,0)")
+    state("rows", "out of rows", f"=IF(AND(stopped{s}=0,too_long{s}=0),1,0)")
     state("no_steps", "no step is taken", f"=IF(steps{s}=0,1,0)")
-    state("one_step", "doubtful: a single step", f"=IF(steps{s}=1,1-sound{s},0)")
-    more_steps = f"1-sound{s}-is_no_steps{s}-is_one_step{s}"
-    state("coarse", "doubtful: time step too long", f"=MIN({more_steps},too_long{s})")
-    state("off", "doubtful: depth is off", f"={more_steps}-is_coarse{s}")
-    state("reversed", "sound; velocity reversed", f"=MIN(sound{s},reverses{s})")
-    not_reversed = f"sound{s}-is_reversed{s}"
-    state("early", "sound; ends before rest", f"=MIN({not_reversed},early{s})")
-    state("done", "sound; complete", f"={not_reversed}-is_early{s}")
+    state("one_step", "doubtful: a single step", f"=IF(AND(steps{s}=1,sound{s}=0),1,0)")
+    doubtful, sound = f"steps{s}>1,sound{s}=0", f"sound{s}=1"
+    state("coarse", "doubtful: time step too long", f"=IF(AND({doubtful},too_long{s}=1),1,0)")
+    state("off", "doubtful: depth is off", f"=IF(AND({doubtful},too_long{s}=0),1,0)")
+    state("reversed", "sound; velocity reversed", f"=IF(AND({sound},reverses{s}=1),1,0)")
+    not_reversed = f"{sound},reverses{s}=0"
+    state("early", "sound; ends before rest", f"=IF(AND({not_reversed},early{s}=1),1,0)")
+    state("done", "sound; complete", f"=IF(AND({not_reversed},early{s}=0),1,0)")
 
 
 def _renamed(sheet: SheetPlan, case: CaseSheet) -> None:
@@ -509,7 +511,7 @@ def _renamed(sheet: SheetPlan, case: CaseSheet) -> None:
     sheet.block("Is β the one of the sheet’s name?")
     is_another = f'=IF({_beta(case)}="{case.label}",0,1)'
     sheet.line(f"other_beta{s}", "", "β is another one", is_another, shown=YES_OR_NO)
-    # That its time step is not longer matters more.
+    # That its time step is not longer matters more. No AND: either of the two may be #N/A alone.
     renamed = f"=IF(longer{s}=1,other_beta{s},0)" if case.coarse else f"=other_beta{s}"
     sheet.state(f"renamed{s}", "I2 says so", renamed, messages.KEEPS_NAME)
 
@@ -521,7 +523,7 @@ def _comparison(sheet: SheetPlan, case: CaseSheet) -> None:
     sheet.block("Against the sheet with the step dt_s")
     longer = "=IF(dt_coarse>dt_s,1,0)"
     sheet.line(f"longer{s}", "", "its time step is longer", longer, shown=YES_OR_NO)
-    sheet.state(f"finer{s}", "it is not; I2 says so", f"=1-longer{s}", messages.NOT_COARSER)
+    sheet.state(f"finer{s}", "it is not; I2 says so", f"=IF(longer{s}=0,1,0)", messages.NOT_COARSER)
     sheet.line(
         f"fine_depth_um{s}", "X", "final depth with dt_s", f"={fine}", "um",
         beside=f"depth-beta-{case.beta}" if case.is_reports else "",

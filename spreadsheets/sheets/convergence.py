@@ -36,7 +36,7 @@ with the inputs of these runs must hold when the workbook was saved as one and o
 def run_inputs(cases: Sequence[CaseSheet]) -> list[str]:
     """Return the names of all numbers on which the runs depend: inputs, derived numbers and π."""
     blocks = input_lines(cases, report=False).values()
-    typed = [entry.name for block in blocks for entry in block if entry.attribute]
+    typed = [line.name for block in blocks for line in block if line.attribute]
     return list(dict.fromkeys([*typed, "D_p", "M_p", "pi_", *(case.resistance for case in cases)]))
 
 
@@ -89,8 +89,8 @@ def _inputs_of_runs(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> str:
     for name in run_inputs(cases):
         row = sheet.row
         scale, unit = SMALL.get(name, (1, ""))
-        # To twelve digits, since programs differ in how they round a conversion of units.
-        same = f"=IF(ABS(J{row}-I{row})<=ABS(I{row})/1000000000000,1,0)"
+        # Not to the last digit, since programs differ in how they round a conversion of units.
+        same = f"=IF(ABS(J{row}-I{row})<=same_within*ABS(I{row}),1,0)"
         sheet.put(
             H=Cell(f"{name} [{unit}]" if unit else name, "text"),
             I=recorded(f"convergence.run.{name}", shown=shown),

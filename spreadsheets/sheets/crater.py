@@ -21,7 +21,7 @@ def crater(ledger: Ledger) -> SheetPlan:
         "m^3", source="Eq. 3", shown="0.000E+00",
     )  # fmt: skip
     sheet.line(
-        "PV_um3", "PV", "the same", "=PV_m3*1000000*1000000*1000000", "um^3",
+        "PV_um3", "PV", "the same", "=PV_m3*um3_per_m3", "um^3",
         claim="particle-volume", shown="0.00",
     )  # fmt: skip
     _observed(sheet)
@@ -62,7 +62,7 @@ def _observed(sheet: SheetPlan) -> None:
         "m^3", source="Eq. 2", shown="0.000E+00",
     )  # fmt: skip
     sheet.line(
-        "CV_crater_um3", "CV", "the same", "=CV_crater*1000000*1000000*1000000", "um^3",
+        "CV_crater_um3", "CV", "the same", "=CV_crater*um3_per_m3", "um^3",
         shown="0.00",
     )  # fmt: skip
     sheet.line(
@@ -100,7 +100,7 @@ def _line_of_figure_1(sheet: SheetPlan) -> None:
         source="Eq. 2", shown="0.000E+00",
     )  # fmt: skip
     sheet.line(
-        "CV_line_again_um3", "CV", "the same", "=CV_line*1000000*1000000*1000000", "um^3",
+        "CV_line_again_um3", "CV", "the same", "=CV_line*um3_per_m3", "um^3",
         shown="0.00",
     )  # fmt: skip
     sheet.line(

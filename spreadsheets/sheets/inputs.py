@@ -45,7 +45,8 @@ class InputLine(NamedTuple):
     """A number to be typed in: its defined name, symbol, unit, and what it is.
 
     source: the claim that prints it, or an inferred input. attribute: the attribute of an impact
-    that it gives, if it belongs to a case. own_limits: if they are not those of the unit.
+    that it gives, if it belongs to a case. case: the slug of that case, if it belongs to one only.
+    own_limits: if they are not those of the unit.
     """
 
     name: str
@@ -54,12 +55,23 @@ class InputLine(NamedTuple):
     unit: str = "1"
     meaning: str = ""
     attribute: str = ""
+    case: str = ""
     own_limits: tuple[float, float] | None = None
 
     @property
     def limits(self) -> tuple[float, float]:
         """The least and the greatest number that may be typed."""
         return self.own_limits or _LIMITS[self.unit]
+
+    @property
+    def is_inferred(self) -> bool:
+        """Whether the report never prints it."""
+        return self.source.startswith(INFERRED)
+
+    @property
+    def whose(self) -> str:
+        """What the check says of the report's number."""
+        return INFERRED_VALUE if self.is_inferred else OF_REPORT
 
     def of_report(self, ledger: Ledger) -> float:
         """Return the report's number in this unit."""
@@ -124,7 +136,7 @@ def input_lines(cases: Sequence[CaseSheet], report: bool) -> dict[str, list[Inpu
             *(
                 InputLine(
                     f"beta{case.input_suffix}", "β", f"depth-beta-{case.beta}-beta",
-                    meaning=f"{over}, {case.name}", attribute="beta",
+                    meaning=f"{over}, {case.name}", attribute="beta", case=case.slug,
                 )
                 for case in cases
             ),
@@ -175,13 +187,17 @@ CONSTANTS = {
     "pi_": ("circumference over diameter, π", "1"),
     "ksi_Pa": ("1000 pound-force per square inch", "Pa"),
     "L_most": ("e^L is computed for L below this", "1"),
+    "series_below": ("for x below this, ln(1 + x) and e^x - 1 are series", "1"),
+    "um3_per_m3": ("cubic micrometers in a cubic meter", "1"),
+    "same_within": ("numbers that differ by this share are the same", "1"),
     "travel_most": ("a step may pass this share of the radius", "1"),
     "excess_most": ("the sheet may exceed the exact depth by", "1"),
     "off_stop_most": ("the sheet may be off the exact depth at v_stop by", "1"),
 }
 """Meanings and units of numbers that depend on no input. Programs differ in the digits of their own
-pi, so it stands in a cell. The last three are limits beyond which a run is not to be trusted; the
-command warns beyond the same ones."""
+pi, so it stands in a cell. So do very large and small numbers: some programs cannot read 1E-8 in a
+formula, and 0.00000001 is hard to read. The last three are limits beyond which a run is not to be
+trusted; the command warns beyond the same ones."""
 
 _HEADS = (
     ("Symbol", 9), ("Quantity", 42), ("Type here", 12), ("Unit", 7), ("Check", 11), ("In use", 13),
@@ -209,8 +225,8 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     first = sheet.row
     for block, inputs in input_lines(cases, report).items():
         sheet.block(block)
-        for entry in inputs:
-            sheet.put(**_input(ledger, entry, sheet.row))
+        for line in inputs:
+            sheet.put(**_input(ledger, line, sheet.row))
         sheet.row += 1
     checks = f"E{first}:E{sheet.row - 2}"
     _summary(sheet, checks)
@@ -226,48 +242,55 @@ def inputs_sheet(ledger: Ledger, cases: Sequence[CaseSheet], report: bool) -> Sh
     return sheet
 
 
-def _input(ledger: Ledger, entry: InputLine, row: int) -> dict[str, Cell]:
+def _input(ledger: Ledger, line: InputLine, row: int) -> dict[str, Cell]:
     """Return the cells of an input's row."""
-    if entry.source.startswith(INFERRED):
-        style, same, place = "inferred", INFERRED_VALUE, "inferred from Table A-1"
+    if line.is_inferred:
+        style, place = "inferred", "inferred from Table A-1"
         prints = Cell("nowhere", "recorded")
     else:
-        style, same, place = "input", OF_REPORT, str(ledger.claims[entry.source].place)
-        prints = printed(ledger, entry.source, entry.unit)
-    si, unit = in_si(f"S{row}", entry.unit), unit_in_use(entry.unit)
-    shown = "General" if unit == entry.unit else "0.0####E+00"
+        style, place = "input", str(ledger.claims[line.source].place)
+        prints = printed(ledger, line.source, line.unit)
+    si, unit = in_si(f"S{row}", line.unit), unit_in_use(line.unit)
+    shown = "General" if unit == line.unit else "0.0####E+00"
     return {
-        "A": Cell(entry.symbol, "text"),
-        "B": Cell(entry.meaning or ledger.title(entry.source), "text"),
-        "C": Cell(key=f"{entry.name}.typed", style=style, unit=entry.unit, limits=entry.limits),
-        "D": unit_text(entry.unit),
-        "E": formula(f"{entry.name}.check", f"=IFERROR(T{row},R{row})", "text"),
-        "F": formula(entry.name, f"={si}", named=True, unit=unit, shown=shown),
+        "A": Cell(line.symbol, "text"),
+        "B": Cell(line.meaning or ledger.title(line.source), "text"),
+        "C": Cell(key=f"{line.name}.typed", style=style, unit=line.unit, limits=line.limits),
+        "D": unit_text(line.unit),
+        "E": formula(f"{line.name}.check", f"=IFERROR(T{row},R{row})", "text"),
+        "F": formula(line.name, f"={si}", named=True, unit=unit, shown=shown),
         "G": unit_text(unit),
-        "H": recorded(entry.of_report(ledger)),
+        "H": recorded(line.of_report(ledger)),
         "I": prints,
         "J": Cell(place, "unit"),
-        "K": recorded(entry.limits[0]),
-        "L": recorded(entry.limits[1]),
-        "M": Cell(entry.name, "unit"),
-        **_checks(entry.name, same, row),
+        "K": recorded(line.limits[0]),
+        "L": recorded(line.limits[1]),
+        "M": Cell(line.name, "unit"),
+        "N": formula(f"{line.name}.number", f"=IF(ISNUMBER(C{row}),C{row},NA())"),
+        "O": formula(f"{line.name}.taken", f'=IF(inputs_from="report",H{row},N{row})'),
+        **within_limits(line.name, row, number="O", limits="KL", columns="PQRS"),
+        "T": formula(f"{line.name}.whose", f'=IF(S{row}=H{row},"{line.whose}","{YOURS}")', "text"),
     }
 
 
-def _checks(name: str, same: str, row: int) -> dict[str, Cell]:
-    """Return the cells by which an input is checked, one condition in each.
+def within_limits(key: str, row: int, *, number: str, limits: str, columns: str) -> dict[str, Cell]:
+    """Return the cells that check a number, one condition in each.
 
-    same: what the check says if the input is not the user's own.
+    number, limits: the columns of the number, and of the least and the greatest accepted one.
+    columns: where it says whether the number is too small, whether it is too large, and what is
+    wrong with it; the last is the number if nothing is.
     """
-    accepted = f"=IF(O{row}<K{row},NA(),IF(O{row}>L{row},NA(),O{row}))"
+    least, most = tuple(limits)
+    below, above, fault, accepted = tuple(columns)
+    checks = {
+        below: ("below", f'=IF({number}{row}<{least}{row},"{TOO_SMALL}","")', "text"),
+        above: ("above", f'=IF({number}{row}>{most}{row},"{TOO_LARGE}","")', "text"),
+        fault: ("fault", f'=IFERROR({below}{row}&{above}{row},"{NO_NUMBER}")', "text"),
+        accepted: ("accepted", f'=IF({fault}{row}="",{number}{row},NA())', "number"),
+    }
     return {
-        "N": formula(f"{name}.number", f"=IF(ISNUMBER(C{row}),C{row},NA())"),
-        "O": formula(f"{name}.taken", f'=IF(inputs_from="report",H{row},N{row})'),
-        "P": formula(f"{name}.below", f'=IF(O{row}<K{row},"{TOO_SMALL}","")', "text"),
-        "Q": formula(f"{name}.above", f'=IF(O{row}>L{row},"{TOO_LARGE}","")', "text"),
-        "R": formula(f"{name}.fault", f'=IFERROR(P{row}&Q{row},"{NO_NUMBER}")', "text"),
-        "S": formula(f"{name}.accepted", accepted),
-        "T": formula(f"{name}.whose", f'=IF(S{row}=H{row},"{same}","{YOURS}")', "text"),
+        column: formula(f"{key}.{end}", expression, style)
+        for column, (end, expression, style) in checks.items()
     }
 
 
@@ -307,10 +330,12 @@ def _summary(sheet: SheetPlan, checks: str) -> None:
             f"O{row}": said_while(name, messages.INPUTS_SAY[name]),
         }
 
+    # The report's inputs can all be used, and none of them is changed.
     state(4, "unusable", "=IF(inputs_unusable>0,1,0)")
-    state(5, "changed", "=IF(inputs_changed>0,1-is_unusable,0)")
+    state(5, "changed", "=IF(AND(inputs_unusable=0,inputs_changed>0),1,0)")
     state(6, "ignored", '=IF(inputs_from="report",1,0)')
-    state(7, "unchanged", "=1-is_unusable-is_changed-is_ignored")
+    unchanged = 'AND(inputs_unusable=0,inputs_changed=0,inputs_from="yours")'
+    state(7, "unchanged", f"=IF({unchanged},1,0)")
 
 
 def _derived(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> None:

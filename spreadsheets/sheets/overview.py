@@ -30,14 +30,14 @@ def program() -> str:
 
 
 def overview(
-    ledger: Ledger, pages: Sequence[CaseSheet], sheets: Sequence[SheetPlan],
+    ledger: Ledger, cases: Sequence[CaseSheet], sheets: Sequence[SheetPlan],
     audited: AuditResult | None, computed_in: Mapping[str, CellPlace],
 ) -> SheetPlan:  # fmt: skip
     """Plan the first sheet; `sheets` are the others, to which it links.
 
     computed_in: the cell that computes a claim, by the claim's id.
     """
-    report, scheme = ledger.report, pages[0].scheme
+    report, scheme = ledger.report, cases[0].scheme
     sheet = SheetPlan(ledger=ledger, name=HOME, portrait=True, most_pages=1)
     sheet.widths = {"A": 33, "B": 15.5, "C": 16, "D": 9, "E": 15, "F": 9, "G": 47}
     sheet.put(A=Cell(title_of(ledger), "title"))
@@ -48,14 +48,14 @@ def overview(
     )
     if audited is not None:
         sheet.say(audited.headline, style="headline", width=140)
-    _results(sheet, pages)
+    _results(sheet, cases)
     _figure(sheet, sheets)
     if audited is not None:
         _failures(sheet, audited, computed_in)
     _heads(sheet, "Sheets")
-    for page in sheets:
-        link = Cell(page.name, "link", link=(page.name, "A1"))
-        sheet.put(A=link, B=Cell(page.about))
+    for listed in sheets:
+        link = Cell(listed.name, "link", link=(listed.name, "A1"))
+        sheet.put(A=link, B=Cell(listed.about))
     _how_to_read(sheet)
     sheet.print_area = f"A1:G{sheet.row - 1}"
     return sheet
@@ -72,7 +72,7 @@ def _heads(sheet: SheetPlan, *heads: str, right: str = "") -> None:
     sheet.heads("ABCDEFG", [*heads, *[""] * (7 - len(heads))], right)
 
 
-def _results(sheet: SheetPlan, pages: Sequence[CaseSheet]) -> None:
+def _results(sheet: SheetPlan, cases: Sequence[CaseSheet]) -> None:
     """Add the final depth of every case, the exact one, the state of its run, and counts of inputs.
 
     The exact depth is the one at rest, without time steps.
@@ -81,7 +81,7 @@ def _results(sheet: SheetPlan, pages: Sequence[CaseSheet]) -> None:
         sheet, "Results with the inputs in use", "Final depth [µm]", "Exact depth [µm]",
         "It prints", "X/R of the sheet", "It prints", "State of the run", right="BCDEF",
     )  # fmt: skip
-    for case in pages:
+    for case in cases:
         key, s = f"overview.{case.part}", case.suffix
         claimed = case.is_reports and not case.coarse
         depth, ratio = f"depth-beta-{case.beta}", f"ratio-beta-{case.beta}"
@@ -119,7 +119,7 @@ _FIGURE_ROWS = 20
 
 def _figure(sheet: SheetPlan, sheets: Sequence[SheetPlan]) -> None:
     """Add the chart of the sheet Figure 3, which also holds its curves."""
-    chart = next(page for page in sheets if page.name == FIGURES).charts[0]
+    chart = next(drawn for drawn in sheets if drawn.name == FIGURES).charts[0]
     height = int(_FIGURE_ROWS * ROW_HEIGHT * 96 / 72) - 5
     sheet.row += 1
     sheet.charts = [replace(chart, at=f"A{sheet.row}", size=(1040, height))]
@@ -162,9 +162,10 @@ def _failure(
         "D": Cell(first, "text"),
     }
     if name in computed_in:
-        page, address = computed_in[name]
+        sheet_name, address = computed_in[name]
         shown = "0.0" if ledger.value(name) > 100 else "0.0000"
-        cells["C"] = formula(f"overview.{name}", f"='{page}'!{address}", "result", shown=shown)
+        computed = f"='{sheet_name}'!{address}"
+        cells["C"] = formula(f"overview.{name}", computed, "result", shown=shown)
     sheet.put(**cells)
     for line in more:
         sheet.put(D=Cell(line, "text"))

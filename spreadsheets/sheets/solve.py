@@ -17,6 +17,7 @@ from spreadsheets.plan import (
 from spreadsheets.sheets import messages
 from spreadsheets.sheets.case import CaseSheet, lines_of_depth
 from spreadsheets.sheets.formulas import expm1
+from spreadsheets.sheets.inputs import within_limits
 
 MEASURED = "observed-depth"
 """The claim whose depth is typed when the workbook is written."""
@@ -24,7 +25,11 @@ MEASURED = "observed-depth"
 DEPTH_LIMITS, RATIO_LIMITS = (1e-4, 1e6), (1e-4, 1e4)
 """Least and greatest depth [um] and X/R [1] that may be typed, as on the sheet Inputs."""
 
-_EXTRA_HEADS = (("Least", 8), ("Greatest", 10), ("Accepted", 10))
+_EXTRA_HEADS = (
+    ("Least", 8), ("Greatest", 10), ("Number typed", 14), ("Below least?", 14), ("Above most?", 14),
+    ("Fault", 14), ("Accepted", 14),
+)  # fmt: skip
+"""As on the sheet Inputs."""
 
 
 def solve(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
@@ -36,7 +41,7 @@ def solve(ledger: Ledger, cases: Sequence[CaseSheet]) -> SheetPlan:
     about = "Which resistance, velocity, radius or density gives a measured depth"
     sheet = SheetPlan(ledger=ledger, name="Solve", about=about, portrait=True, most_pages=1)
     sheet.widths = dict(zip(sheet.columns, (width for _, width in LINE_HEADS), strict=True))
-    sheet.widths |= dict(zip("GHI", (width for _, width in _EXTRA_HEADS), strict=True))
+    sheet.widths |= dict(zip("GHIJKLM", (width for _, width in _EXTRA_HEADS), strict=True))
     sheet.begin("Which input gives a measured depth?")
     sheet.say(
         "Type a measured depth, or X/R, which then takes its place. Each answer is the value of one"
@@ -61,7 +66,7 @@ def _measured(sheet: SheetPlan) -> None:
     heads = [head for head, _ in (*LINE_HEADS, *_EXTRA_HEADS)]
     heads[4] = "To compare"
     sheet.headed = "A", sheet.row, sheet.row
-    sheet.heads("ABCDEFGHI", heads, right="CEGHI")
+    sheet.heads("ABCDEFGHIJKLM", heads, right="CEGHIM")
     depth_row, ratio_row = sheet.row, sheet.row + 1
     _typed(sheet, "depth", "X", "measured depth", "um", DEPTH_LIMITS)
     _typed(sheet, "ratio", "X/R", "or measured depth over radius; may be blank", "1", RATIO_LIMITS)
@@ -74,7 +79,7 @@ def _measured(sheet: SheetPlan) -> None:
     sheet.line("by_ratio", "", "X/R is typed", f"=IF(ISNUMBER(C{ratio_row}),1,0)", shown=YES_OR_NO)
     sheet.line(
         "y_meas", "y", "normalized depth X/R",
-        f"=IF(by_ratio=1,I{ratio_row},I{depth_row}/1000000/R_p)",
+        f"=IF(by_ratio=1,M{ratio_row},M{depth_row}/1000000/R_p)",
     )  # fmt: skip
     sheet.line("X_meas", "X", "depth", "=y_meas*R_p", "m", source="y R", shown="0.0000E+00")
     sheet.line(
@@ -87,22 +92,23 @@ def _measured(sheet: SheetPlan) -> None:
 def _typed(
     sheet: SheetPlan, name: str, symbol: str, meaning: str, unit: str, limits: tuple[float, float]
 ) -> None:
-    """Add the line of a number to be typed; column I has it if it can be used."""
-    typed, least, most = (f"{column}{sheet.row}" for column in "CGH")
-    # A blank X/R is no fault: the depth is taken.
-    otherwise = "NA()" if name == "depth" else '""'
-    in_limits = f"IF({typed}<{least},NA(),IF({typed}>{most},NA(),{typed}))"
+    """Add the line of a number to be typed; column M has it if it can be used.
+
+    It is #N/A for a blank X/R, for which the depth is taken.
+    """
+    row, key = sheet.row, f"solve.{name}"
     claim = MEASURED if name == "depth" else "discussion-observed"
     sheet.put(
         A=Cell(symbol, "text"),
         B=Cell(meaning, "text"),
-        C=Cell(key=f"solve.{name}", style="input", unit=unit, limits=limits),
+        C=Cell(key=key, style="input", unit=unit, limits=limits),
         D=unit_text(unit),
         E=printed(sheet.ledger, claim, unit),
         F=Cell(str(sheet.ledger.claims[claim].place), "unit"),
         G=recorded(limits[0]),
         H=recorded(limits[1]),
-        I=formula(f"solve.{name}.accepted", f"=IF(ISNUMBER({typed}),{in_limits},{otherwise})"),
+        I=formula(f"{key}.number", f"=IF(ISNUMBER(C{row}),C{row},NA())"),
+        **within_limits(key, row, number="I", limits="GH", columns="JKLM"),
     )
 
 
@@ -190,7 +196,10 @@ def _said(sheet: SheetPlan) -> None:
         "solved", "", "a resistance gives this depth", "=IF(L_meas<L_most,1,0)", shown=YES_OR_NO,
         source="L below L_most",
     )  # fmt: skip
-    # The smaller of two states is 1 if both hold.
-    sheet.state("for_ratio", "solved for X/R", "=MIN(solved,by_ratio)", messages.BY_RATIO)
-    sheet.state("for_depth", "solved for the depth", "=solved-is_for_ratio", messages.BY_DEPTH)
-    sheet.state("too_deep", "too deep for any resistance", "=1-solved", messages.TOO_DEEP)
+    # Only `solved` may be #N/A, so it is the first condition; see `case.py`.
+    for_ratio = "=IF(AND(solved=1,by_ratio=1),1,0)"
+    for_depth = "=IF(AND(solved=1,by_ratio=0),1,0)"
+    too_deep = "=IF(solved=0,1,0)"
+    sheet.state("for_ratio", "solved for X/R", for_ratio, messages.BY_RATIO)
+    sheet.state("for_depth", "solved for the depth", for_depth, messages.BY_DEPTH)
+    sheet.state("too_deep", "too deep for any resistance", too_deep, messages.TOO_DEEP)

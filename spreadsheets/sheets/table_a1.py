@@ -15,7 +15,6 @@ from spreadsheets.sheets.case import (
     ROW_COLUMNS,
     CaseSheet,
     if_in_use,
-    next_index,
     step_formulas,
 )
 
@@ -84,7 +83,8 @@ def table_a1(ledger: Ledger, case: CaseSheet, report: bool) -> SheetPlan:
     for column, head in _heads(centered).items():
         style = "head right" if head else "head"
         sheet.cells[f"{column}{_FIRST - 1}"] = Cell(head, style)
-    for step in range(TABLE_ROWS):
+    # A reference to a row that is not prepared would show 0.
+    for step in range(min(TABLE_ROWS, case.rows + 1)):
         for column, expression in _row(case, step).items():
             key = {"A": "time", _MIDDLE: "velocity_middle"}.get(column) or ROW_COLUMNS[column].key
             live(f"{column}{_FIRST + step}", f"row.{key}[{step}]", expression)
@@ -112,16 +112,16 @@ def _heads(centered: bool) -> dict[str, str]:
 
 
 def _row(case: CaseSheet, step: int) -> dict[str, str]:
-    """Return the formulas of a row by column; its first column is the time, not the row number."""
+    """Return the formulas of a row by column; its first column is the time, not the row number.
+
+    The time is that of the case's own sheet, which is blank below the stop.
+    """
     row = _FIRST + step
+    time = {"A": f"='{case.name}'!B{FIRST_ROW + step}"}
     if step == 0:
-        values = {"A": "0", "C": "V_impact", "D": "0", "E": "0"}
-        index = f"'{case.name}'!A{FIRST_ROW}"
-        start = {"A": f'=IF(ISNUMBER({index}),0,"")'}
-        return start | {column: if_in_use(row, values[column]) for column in "CDE"}
-    steps = f"(ROW(A{row - 1})-ROW(A${_FIRST})+1)"
-    time = next_index(row, step, f"{steps}*{case.time_step}")
-    return {"A": time, **step_formulas(case, row, step, middle=_MIDDLE)}
+        values = {"C": "V_impact", "D": "0", "E": "0"}
+        return time | {column: if_in_use(row, text) for column, text in values.items()}
+    return time | step_formulas(case, row, step, middle=_MIDDLE)
 
 
 def _as_printed(ledger: Ledger, claims: Mapping[str, Claim]) -> dict[str, Cell]:

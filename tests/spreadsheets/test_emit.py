@@ -107,8 +107,8 @@ def test_the_sheets_are_sound_as_far_as_their_parts_tell(emitted: Any) -> None:
 
 
 OLD_FUNCTIONS = {
-    "ABS", "ASIN", "COUNT", "COUNTIF", "EXP", "IF", "IFERROR", "INDEX", "ISNUMBER", "LN", "MAX",
-    "MIN", "NA", "PI", "ROUND", "ROW", "SIN", "SQRT",
+    "ABS", "AND", "ASIN", "COUNT", "COUNTIF", "EXP", "IF", "IFERROR", "INDEX", "ISNUMBER", "LN",
+    "MAX", "MIN", "NA", "PI", "ROUND", "SIN", "SQRT",
 }  # fmt: skip
 """Functions of Excel 2007, the first to read .xlsx. Newer ones would need the prefix _xlfn."""
 
@@ -116,8 +116,8 @@ OLD_FUNCTIONS = {
 def test_every_function_is_as_old_as_the_file_format(emitted: Any) -> None:
     formulas = [
         re.sub('"[^"]*"', "", cell.formula)
-        for page in emitted.book.plan.sheets
-        for cell in page.cells.values()
+        for plan in emitted.book.plan.sheets
+        for cell in plan.cells.values()
     ]
     called = {name for formula in formulas for name in re.findall(r"([A-Za-z0-9.]+)\(", formula)}
     assert "IFERROR" in called
@@ -126,12 +126,12 @@ def test_every_function_is_as_old_as_the_file_format(emitted: Any) -> None:
 
 def test_a_text_longer_than_its_column_has_room_for_two_lines(emitted: Any) -> None:
     parts = parts_of(emitted.path.read_bytes())
-    for number, page in enumerate(emitted.book.plan.sheets, start=1):
+    for number, plan in enumerate(emitted.book.plan.sheets, start=1):
         rows = parts[f"xl/worksheets/sheet{number}.xml"]
         heights = dict(re.findall(r'<row r="(\d+)"[^>]* ht="([\d.]+)"', rows))
-        for address, cell in page.cells.items():
-            if cell.wrap and len(cell.text) > 1.2 * page.widths[address[0]]:
-                assert float(heights[address[1:]]) == 2 * page.row_height, (page.name, address)
+        for address, cell in plan.cells.items():
+            if cell.wrap and len(cell.text) > 1.2 * plan.widths[address[0]]:
+                assert float(heights[address[1:]]) == 2 * plan.row_height, (plan.name, address)
 
 
 def test_charts_store_numbers_and_are_described(emitted: Any) -> None:

@@ -26,14 +26,14 @@ from spreadsheets.verify import inexact
 LEDGER = load()
 
 FUNCTIONS = {
-    "ABS", "ASIN", "COUNT", "COUNTIF", "EXP", "IF", "IFERROR", "INDEX", "ISNUMBER", "LN", "MAX",
-    "MIN", "NA", "ROUND", "ROW", "SIN", "SQRT",
+    "ABS", "AND", "ASIN", "COUNT", "COUNTIF", "EXP", "IF", "IFERROR", "INDEX", "ISNUMBER", "LN",
+    "MAX", "MIN", "NA", "ROUND", "SIN", "SQRT",
 }  # fmt: skip
 """Functions that Excel 2010 has and every engine computes alike; none is volatile."""
 
 MATHEMATICAL = {
-    "0", "0.5", "1", "2", "3", "4", "6", "7", "9", "21", "0.00000001", "1000000", "1000000000",
-    "1000000000000", "1000000000000000",
+    "0", "0.5", "1", "2", "3", "4", "6", "7", "9", "21", "1000000", "1000000000",
+    "1000000000000000",
 }  # fmt: skip
 """Numbers of the printed equations (1/2, 4/3, 7/3), counts, and powers of ten for units."""
 
@@ -45,7 +45,7 @@ def formulas(book: Workbook) -> dict[tuple[str, str], str]:
 
 def sheet(book: Workbook, name: str) -> SheetPlan:
     """Return a sheet of a workbook."""
-    (wanted,) = (page for page in book.plan.sheets if page.name == name)
+    (wanted,) = (plan for plan in book.plan.sheets if plan.name == name)
     return wanted
 
 
@@ -134,13 +134,32 @@ def test_no_formula_that_says_something_tests_more_than_one_condition(book: Work
 
 
 def test_a_condition_is_one_comparison_or_one_question(book: Workbook) -> None:
-    """No AND, OR or NOT, no sum of conditions: what decides a message can be read in a cell."""
+    """Or an AND of comparisons: no OR or NOT, and no sum of conditions."""
     for formula, place in shapes(book).items():
-        conditions = first_arguments_of_if(formula)
-        for condition in conditions:
-            comparisons = re.findall(r"<=|>=|<>|[<>=]", re.sub(r'"[^"]*"', "", condition))
-            questions = re.findall(r"ISNUMBER\(", condition)
-            assert len(comparisons) + len(questions) == 1, (place, condition)
+        for condition in first_arguments_of_if(formula):
+            bare = re.sub(r'"[^"]*"', "", condition)
+            several = re.fullmatch(r"AND\(([^()]*)\)", bare)
+            for single in several[1].split(",") if several else [bare]:
+                assert "AND(" not in single, (place, condition)
+                comparisons = re.findall(r"<=|>=|<>|[<>=]", single)
+                questions = re.findall(r"ISNUMBER\(", single)
+                assert len(comparisons) + len(questions) == 1, (place, condition)
+
+
+def test_the_first_condition_of_an_and_hangs_on_all_that_the_others_do(published: Workbook) -> None:
+    """So it is #N/A if any of them is: programs differ in AND(0=1,#N/A)."""
+    plan, reached = published.plan, {}
+    for place, cell in plan.cells.items():
+        if cell.key.endswith(".typed"):
+            reached[cell.key] = plan.dependents([place])
+    ands = [text for text in formulas(published).values() if "AND(" in text]
+    assert len(ands) > 30
+    for formula in ands:
+        names = re.findall(r"(\w+)(?:[<>=])", formula.partition("AND(")[2])
+        first, *others = (
+            {key for key, places in reached.items() if plan.where[name] in places} for name in names
+        )
+        assert all(first >= inputs for inputs in others), formula
 
 
 def first_arguments_of_if(formula: str) -> list[str]:
@@ -331,13 +350,14 @@ def test_each_cell_of_a_claim_computes_it(published: Workbook, record: Record) -
 def test_a_claim_has_one_cell_and_the_audits_file_names_it(
     published: Workbook, record: Record
 ) -> None:
-    own = list(chain.from_iterable(page.claims for page in published.plan.sheets))
+    own = list(chain.from_iterable(plan.claims for plan in published.plan.sheets))
     assert max(Counter(own).values()) == 1
-    cells = {name: f"{page}!{address}" for name, (page, address) in published.plan.claims.items()}
+    places = published.plan.claims
+    cells = {name: f"{sheet_name}!{address}" for name, (sheet_name, address) in places.items()}
     assert cells == dict(cells_of_claims())
     documents = [claim_document(claim) for claim in record.claims]
     assert {d["id"]: d["workbook"] for d in documents if d["workbook"]} == cells
-    links = {cell.text for (page, at), cell in published.plan.cells.items() if page == "Audit"}
+    links = {cell.text for cell in sheet(published, "Audit").cells.values()}
     assert set(cells.values()) <= links
 
 
@@ -376,13 +396,13 @@ NAMES = [
 
 
 def test_the_reports_workbook_has_these_sheets(published: Workbook) -> None:
-    assert [page.name for page in published.plan.sheets] == NAMES
+    assert [plan.name for plan in published.plan.sheets] == NAMES
     assert not [name for name in NAMES if re.search(r"[,'\[\]:*?/\\]", name) or len(name) > 31]
 
 
 def test_the_workbook_of_another_case_lacks_what_concerns_only_the_report(own: Workbook) -> None:
     only = {"Sheet beta 3", "Sheet beta 3 coarse", "Sheet beta 5 coarse", "Audit"}
-    assert [page.name for page in own.plan.sheets] == [n for n in NAMES if n not in only]
+    assert [plan.name for plan in own.plan.sheets] == [n for n in NAMES if n not in only]
 
 
 def test_a_given_resistance_takes_the_place_of_beta(build: Callable[..., Workbook]) -> None:
@@ -428,8 +448,8 @@ def test_the_audit_lists_every_claim(published: Workbook) -> None:
 def test_links_lead_to_cells_and_every_sheet_leads_home(published: Workbook) -> None:
     cells = published.plan.cells
     assert all(cell.link in cells for cell in cells.values() if cell.link)
-    for page in published.plan.sheets[1:]:
-        assert ("Overview", "A1") in [cell.link for cell in page.cells.values()]
+    for plan in published.plan.sheets[1:]:
+        assert ("Overview", "A1") in [cell.link for cell in plan.cells.values()]
 
 
 def test_inputs_stand_apart_and_refuse_what_is_a_factor_of_a_million_off(
@@ -475,10 +495,10 @@ def test_too_many_rows_are_refused() -> None:
 # Layout
 
 
-def width(page: SheetPlan, first: str, last: str) -> int:
+def width(plan: SheetPlan, first: str, last: str) -> int:
     """Return the width of columns in pixels at 100 %; a column without a width has the default."""
     columns = map(chr, range(ord(first), ord(last) + 1))
-    return sum(int(page.widths.get(column, 8.43) * 7 + 5) for column in columns)
+    return sum(int(plan.widths.get(column, 8.43) * 7 + 5) for column in columns)
 
 
 def test_printed_type_is_at_least_6_5_points(book: Workbook) -> None:
@@ -488,38 +508,38 @@ def test_printed_type_is_at_least_6_5_points(book: Workbook) -> None:
     lines. Every page but the first repeats the heads.
     """
     beside, above = MARGINS["left"] + MARGINS["right"], MARGINS["top"] + MARGINS["bottom"]
-    for page in book.plan.sheets:
-        area = page.print_area or " ".join(page.cells)
+    for plan in book.plan.sheets:
+        area = plan.print_area or " ".join(plan.cells)
         columns, rows = re.findall("[A-Z]+", area), [*map(int, re.findall(r"\d+", area))]
-        across, down = (8.5, 11) if page.portrait else (11, 8.5)
-        assert 10 * (across - beside) * 96 / width(page, min(columns), max(columns)) >= 6.5, (
-            page.name
+        across, down = (8.5, 11) if plan.portrait else (11, 8.5)
+        assert 10 * (across - beside) * 96 / width(plan, min(columns), max(columns)) >= 6.5, (
+            plan.name
         )
-        wrapped = {at[1:] for at, cell in page.cells.items() if takes_two_lines(page, at, cell)}
-        heads = page.headed[2] - page.headed[1] + 1 if page.headed else 0
-        lines = max(rows) + len(wrapped) + heads * (page.most_pages - 1)
-        height = (TITLE_HEIGHT + (lines - 1) * page.row_height) / page.most_pages
-        assert 10 * (down - above) * 72 / height >= 6.5, page.name
+        wrapped = {at[1:] for at, cell in plan.cells.items() if takes_two_lines(plan, at, cell)}
+        heads = plan.headed[2] - plan.headed[1] + 1 if plan.headed else 0
+        lines = max(rows) + len(wrapped) + heads * (plan.most_pages - 1)
+        height = (TITLE_HEIGHT + (lines - 1) * plan.row_height) / plan.most_pages
+        assert 10 * (down - above) * 72 / height >= 6.5, plan.name
 
 
 def test_heads_stand_over_what_they_name_on_the_side_of_its_text(book: Workbook) -> None:
     """Those of numbers on the right, those of texts on the left; in column A all on the left."""
-    for page in book.plan.sheets:
-        for address, head in page.cells.items():
+    for plan in book.plan.sheets:
+        for address, head in plan.cells.items():
             if head.text and head.style in ("head right", "head unit"):
-                below = page.cells.get(f"{address[0]}{int(address[1:]) + 1}")
+                below = plan.cells.get(f"{address[0]}{int(address[1:]) + 1}")
                 if below and below.style != "block":
                     aligned = STYLES[below.style].get("align") == "right"
-                    assert (head.style == "head right") == aligned, (page.name, address)
+                    assert (head.style == "head right") == aligned, (plan.name, address)
 
 
 def test_what_follows_a_blank_row_has_a_head(book: Workbook) -> None:
-    for page in book.plan.sheets:
-        first = {int(re.sub(r"\D", "", at)): cell for at, cell in reversed(page.cells.items())}
+    for plan in book.plan.sheets:
+        first = {int(re.sub(r"\D", "", at)): cell for at, cell in reversed(plan.cells.items())}
         for row, cell in first.items():
             if row - 1 not in first and row > 1:
                 assert cell.style in ("head", "head unit", "block", "note", "link"), (
-                    page.name,
+                    plan.name,
                     row,
                 )
 
@@ -537,9 +557,9 @@ def test_verdicts_and_checks_stand_on_the_first_screen(
     published: Workbook, name: str, head: str
 ) -> None:
     """Of 1366 pixels, less the row numbers and the scroll bar."""
-    page = sheet(published, name)
-    heads = [address for address, cell in page.cells.items() if cell.text == head]
-    assert width(page, "A", heads[0][0]) <= 1366 - 60
+    plan = sheet(published, name)
+    heads = [address for address, cell in plan.cells.items() if cell.text == head]
+    assert width(plan, "A", heads[0][0]) <= 1366 - 60
 
 
 def test_curves_differ_in_more_than_color() -> None:

@@ -62,20 +62,26 @@ def test_a_measured_depth_is_solved_for_each_input(pages: Mapping[str, Any], ask
         check_answers(pages[f"{depth} um"], depth / 1e6, asked)
 
 
+TYPED: Mapping[str, Mapping[str, float | str | None]] = {
+    **{f"{depth} um": {"solve.depth": depth} for depth in DEPTHS},
+    "X/R": {"solve.ratio": 0.5},
+    "a text as X/R": {"solve.ratio": "a third"},
+    "an error as X/R": {"solve.ratio": "#DIV/0!"},
+    "no depth": {"solve.depth": None},
+    "an error as depth": {"solve.depth": "#DIV/0!"},
+    "a depth in m": {"solve.depth": 3.3e-6},
+    "too large an X/R": {"solve.ratio": 1e5},
+    "too deep": {"solve.ratio": 9000.0},
+}
+"""What is typed into the sheet, by what it is."""
+
+
 @pytest.fixture(scope="module")
 def pages(emitted: Any, tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
-    """The report's workbook after each of these depths, or an X/R, is typed."""
-    typed = {f"{depth} um": {"solve.depth": depth} for depth in DEPTHS}
-    typed |= {
-        "X/R": {"solve.ratio": 0.5},
-        "no depth": {"solve.depth": None},
-        "a depth in m": {"solve.depth": 3.3e-6},
-        "too large an X/R": {"solve.ratio": 1e5},
-        "too deep": {"solve.ratio": 9000.0},
-    }
+    """The report's workbook after each of these is typed."""
     folder = tmp_path_factory.mktemp("solve")
-    result = emitted.recalculated(usable(FASTEST), list(typed.values()), folder)
-    return dict(zip(typed, result, strict=True))
+    result = emitted.recalculated(usable(FASTEST), list(TYPED.values()), folder)
+    return dict(zip(TYPED, result, strict=True))
 
 
 def test_the_depth_comes_back(pages: Mapping[str, Any]) -> None:
@@ -92,20 +98,42 @@ def test_a_typed_ratio_takes_the_place_of_the_depth(pages: Mapping[str, Any]) ->
     check_answers(page, 0.5 * BETA_5.radius, "resistance")
 
 
-@pytest.mark.parametrize(
-    ("typed", "message"),
-    [
-        ("no depth", NOT_SOLVED),
-        ("a depth in m", NOT_SOLVED),
-        ("too large an X/R", NOT_SOLVED),
-        ("too deep", TOO_DEEP),
-    ],
-)
-def test_what_cannot_be_solved_shows_no_number(
-    pages: Mapping[str, Any], typed: str, message: str
-) -> None:
+MESSAGES = {
+    "X/R": (BY_RATIO, "", ""),
+    "a text as X/R": (BY_DEPTH, "", "no number"),
+    "an error as X/R": (BY_DEPTH, "", "no number"),
+    "no depth": (NOT_SOLVED, "no number", "no number"),
+    "an error as depth": (NOT_SOLVED, "no number", "no number"),
+    "a depth in m": (NOT_SOLVED, "too small", "no number"),
+    "too large an X/R": (NOT_SOLVED, "", "too large"),
+    "too deep": (TOO_DEEP, "", ""),
+}
+"""What the sheet says, and what it says is wrong with the depth and with X/R."""
+
+
+def check_messages(pages: Mapping[str, Any]) -> None:
+    """Assert that the sheet says this after each of these is typed."""
+    keys = "solve.message", "solve.depth.fault", "solve.ratio.fault"
+    said = {typed: tuple(pages[typed][key] for key in keys) for typed in MESSAGES}
+    assert said == MESSAGES
+
+
+def test_it_says_what_is_wrong_with_what_is_typed(pages: Mapping[str, Any]) -> None:
+    check_messages(pages)
+
+
+@pytest.mark.slow
+def test_it_says_the_same_in_every_program(engine: Engine, emitted: Any, tmp_path: Path) -> None:
+    result = emitted.recalculated(engine, list(TYPED.values()), tmp_path)
+    pages = dict(zip(TYPED, result, strict=True))
+    check_messages(pages)
+    for typed, (message, *_) in MESSAGES.items():
+        assert (pages[typed]["R_t_meas"] == NOT_AVAILABLE) == (message in (NOT_SOLVED, TOO_DEEP))
+
+
+@pytest.mark.parametrize("typed", ["no depth", "a depth in m", "too large an X/R", "too deep"])
+def test_what_cannot_be_solved_shows_no_number(pages: Mapping[str, Any], typed: str) -> None:
     page = pages[typed]
-    assert page["solve.message"] == message
     for key in ("R_t_meas", "beta_meas", "V_impact_meas_high", "Y_t_meas_low", "X_back_um"):
         assert page[key] == NOT_AVAILABLE
     assert page.errors == {}

@@ -79,6 +79,11 @@ SCENARIOS = {
         {"dt_s": 12.0}, (STEP_TOO_LONG, STEP_TOO_LONG, COMPLETE, COMPLETE), 1, notes=BOTH_COARSE,
         also={"steps_low": 3.0, "steps_high": 3.0},
     ),
+    # Δt V/R is 0.1, the longest step that is not too long, and in doubles a little more.
+    "the longest step": Said(
+        {"V_impact": 400.0, "R_p": 8.0, "dt_s": 2.0}, [REVERSED] * 4, 3, notes=BOTH_COARSE,
+        also={"travel_low": 0.1 + 2**-56, "too_long_low": 0.0},
+    ),
     "another stop": Said({"v_stop": 2.0}, [COMPLETE] * 4, 1, also={"steps_high": 130.0}),
     "a stop long before rest": Said({"v_stop": 100.0}, [EARLY] * 4, 1),
     "a stop just below the impact": Said(

@@ -35,12 +35,13 @@ from spreadsheets.verify import compare, tolerances
 LEDGER = load()
 GIVEN = replace(BETA_5, beta=None, flow_stress=None, resistance=2.5e9)
 ODD = replace(BETA_5, step=3.3e-10, radius=7.3e-6, flow_stress=1.234e8, beta=4.567)
-CASES: dict[str, tuple[Impact | None, str]] = {
+CASES: dict[str, tuple[Impact | None, str] | tuple[Impact, str, int]] = {
     "report": (None, "published"),
     "report, centered": (None, "centered"),
     "beyond the radius": (replace(BETA_5, velocity=800.0), "published"),
     "resistance given": (GIVEN, "published"),
     "fewer steps than Table A-1": (replace(BETA_5, step=1e-8), "published"),
+    "fewer rows than Table A-1": (replace(BETA_5, step=1e-8), "published", 3),
     "no step at all": (replace(BETA_5, stop_velocity=600.0), "centered"),
     "too long a step": (replace(BETA_5, step=4e-8), "published"),
     "numbers that no unit makes round": (ODD, "centered"),
