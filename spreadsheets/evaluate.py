@@ -112,7 +112,7 @@ class Shape:
 _STRING = r'"(?:[^"]|"")*"'
 _SHEET = r"(?:'(?:[^']|'')++'|[^\W\d][\w.]*+)!"
 _A1 = re.compile(
-    rf"{_STRING}|(?<![\w.$])(?P<sheet>{_SHEET})?+(?:"
+    rf"{_STRING}|(?<![\w.$])(?P<sheet>{_SHEET})?(?:"
     r"(?P<cell>\$?[A-Za-z]{1,3}\$?[1-9][0-9]{0,6})(?::(?P<to>\$?[A-Za-z]{1,3}\$?[1-9][0-9]{0,6}))?"
     r"|(?P<columns>\$?[A-Za-z]{1,3}:\$?[A-Za-z]{1,3})|(?P<rows>\$?[1-9][0-9]{0,6}:\$?[1-9][0-9]{0,6})"
     r")(?![\w.(!\[])"
@@ -121,7 +121,8 @@ _A1 = re.compile(
 """Texts, references, and what else stands in apostrophes, which is skipped as a whole.
 
 What was read is not read again, so that the time grows with the length: a quantifier with a + gives
-nothing back, and a sheet's name starts where a word does.
+nothing back, and a sheet's name starts where a word does. (Such a + after a named group matches
+wrongly in Python 3.11.2.)
 """
 _CELL = re.compile(r"(\$?)([A-Za-z]{1,3})(\$?)([0-9]+)")
 _OPEN, _CLOSE = "\x02", "\x03"
