@@ -126,6 +126,10 @@ class Package:
                 left = self.events_left
                 parser.feed(chunk)
                 unfinished = 0 if self.events_left < left else unfinished + len(chunk)
+                if unfinished > _MAX_PIECE and hasattr(parser, "flush"):
+                    # Newer parsers wait for more of a long piece, even if its end is there already.
+                    parser.flush()
+                    unfinished = 0 if self.events_left < left else unfinished
                 if unfinished > _MAX_PIECE:
                     raise too_much(f"a tag, comment or blank of its part {part} has more than 1 MB")
             return parser.close()
