@@ -127,7 +127,7 @@ def survives(module: Path, text: str, seed: int) -> bool:
     tests = [path.relative_to(ROOT) for path in tests_of(module)]
     with tempfile.TemporaryDirectory() as folder:
         copy = Path(folder) / "project"
-        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".*", "*.egg-info"))
+        shutil.copytree(ROOT, copy, ignore=shutil.ignore_patterns(".git", ".venv", ".*cache*"))
         (copy / module.relative_to(ROOT)).write_text(text, "utf-8")
         environment = os.environ | {"PYTHONPATH": str(copy)}
         command = [sys.executable, "-m", "pytest", *options, *tests]
