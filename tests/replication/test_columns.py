@@ -54,6 +54,8 @@ def test_the_name_and_the_unit_in_a_head(head: str, name: str, unit: str) -> Non
         pytest.param("velocity [m/s] | depth [um]\n400 | 6.1\n500 | 7.6D+00\n", id="bars, Fortran"),
         pytest.param("# my own\n# velocity [m/s],depth [um]\n400,6.1\n500,7.6\n",
                      id="heads in a comment"),
+        pytest.param("# velocity [m/s],depth [um]\n# of my own\n400,6.1\n500,7.6\n",
+                     id="heads in the first of two comments"),
         pytest.param("velocity,depth\nm/s,[um]\n400,6.1\n500,7.6\n", id="units below the heads"),
         pytest.param('"velocity, m/s";"depth, um"\n"400,0";"6,1"\n500;"7,6 um"\n',
                      id="more commas than semicolons"),

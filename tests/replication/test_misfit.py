@@ -49,6 +49,16 @@ def test_a_displaced_depth_is_far_off_and_the_others_give_the_resistance(displac
     assert abs(outlier.without.value - RESISTANCE) < 3 * outlier.without.standard_error
 
 
+def test_of_three_depths_one_can_be_far_off_but_not_of_two() -> None:
+    """Two depths of the model, of any resistance at all, leave a third no room."""
+    exact = made(0.0, 1.0, weighted=False)
+    three = [exact[0], replace(exact[3], depth=1.2 * exact[3].depth), exact[7]]
+    outlier = far_off(BETA_5, fit(BETA_5, three), three)
+    assert outlier is not None
+    assert outlier.number == 1
+    assert far_off(BETA_5, fit(BETA_5, three[:2]), three[:2]) is None
+
+
 def test_deviations_are_the_externally_studentized_residual() -> None:
     """By the textbook's formula, r / (s_(i) sqrt(1 - h)), where the model is as good as linear."""
     data = made(1e-6, 1 + 1e-4, weighted=False)
