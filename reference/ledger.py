@@ -433,10 +433,8 @@ class Ledger(TomlStruct, frozen=True, dict=True, eq=False):
             original = located[original.same_as]
         if claim.same_as and claim.kind != "remark":
             claim = replace(claim, computed_by="same_as", rests_on={"value": claim.same_as})
-        readings, inputs = (
-            {READ_AS_PRINTED: claim.computed_by, **claim.readings},
-            dict(claim.rests_on),
-        )
+        readings = {READ_AS_PRINTED: claim.computed_by, **claim.readings}
+        inputs = dict(claim.rests_on)
         if group := inputs.pop("group", None):
             inputs = {**self.groups[str(group)], **inputs}
         places = ((equation.id, equation.place) for equation in self.equations.values())

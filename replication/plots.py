@@ -484,15 +484,14 @@ def plot_converge(
             sizes = _sizes([level["budget"][part] for level in levels])
             panel.plot(steps, sizes, label=words, marker=own.marker, **own.of_line)
         _guide(panel, steps, errors, record["nominal_order"])
+        ticks = {number(step, 3): step for step in steps.tolist()}
         if points:
-            own_steps = points.columns[STEP]
+            own_steps = STEP.shown(points.columns[STEP])
             own_errors = points.columns.get(ERROR)
             if own_errors is None:
                 own_errors = [depth - record["exact"] for depth in points.columns[DEPTH]]
-            _draw_own_points(panel, STEP.shown(own_steps), _sizes(own_errors), None, points.file)
-        ticks = {number(step, 3): step for step in steps.tolist()}
-        if points:
-            own_ticks = {number(step, 3): step for step in STEP.shown(own_steps).tolist()}
+            _draw_own_points(panel, own_steps, _sizes(own_errors), None, points.file)
+            own_ticks = {number(step, 3): step for step in own_steps.tolist()}
             ticks |= own_ticks if len(ticks | own_ticks) <= _MOST_TICKS else {}
         panel.set_xticks([*ticks.values()], [*ticks], minor=False)
         panel.xaxis.minorticks_off()

@@ -116,6 +116,15 @@ def address(row: int, column: int) -> str:
     return f"{get_column_letter(column)}{row}"
 
 
+def in_quotes(sheet: str) -> str:
+    """Return the name of a sheet as a reference quotes it.
+
+    >>> in_quotes("It's odd")
+    "'It''s odd'"
+    """
+    return "'" + sheet.replace("'", "''") + "'"
+
+
 # Engines that pip installs
 
 
@@ -179,9 +188,8 @@ def _used(workbook: Any, sheet: str) -> tuple[int, int]:
     """
     from openpyxl.utils.cell import coordinate_to_tuple
 
-    quoted = "'" + sheet.replace("'", "''") + "'"
     rows, columns = (
-        workbook.range_page(f"{quoted}!{whole}", limit=1, include_values=False).resolved
+        workbook.range_page(f"{in_quotes(sheet)}!{whole}", limit=1, include_values=False).resolved
         for whole in ("A:XFD", "1:1048576")
     )
     if rows is None or columns is None:

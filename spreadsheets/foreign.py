@@ -29,7 +29,7 @@ from openpyxl.utils.cell import (
 )
 
 from spreadsheets.conversion import FORMATS, converted
-from spreadsheets.engines import address
+from spreadsheets.engines import address, in_quotes
 from spreadsheets.package import (
     Package,
     attribute,
@@ -283,7 +283,7 @@ class _BookReader:
 
     def tables(self, sheet: str, sheet_part: str) -> _Tables:
         """Read the tables of a sheet."""
-        tables, quoted = [], sheet.replace("'", "''")
+        tables = []
         for kind, part in self.package.relations(sheet_part).values():
             if kind != "table" or part not in self.package:
                 continue
@@ -303,7 +303,7 @@ class _BookReader:
             tables.append((name.lower(), columns))
             for head, number in columns.items():
                 escaped, letter = re.sub(r"[\[\]#'@]", r"'\g<0>", head), get_column_letter(number)
-                cells = f"'{quoted}'!${letter}${top + heads}:${letter}${bottom - totals}"
+                cells = f"{in_quotes(sheet)}!${letter}${top + heads}:${letter}${bottom - totals}"
                 self.columns[f"{name}[{escaped}]"] = cells
         return tables
 

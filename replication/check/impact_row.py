@@ -106,11 +106,7 @@ def _brake(exam: Examination) -> Iterator[tuple[str, float, str]]:
         return
     close = _slack(line, value, first)
     if not min(0.0, first) - close <= value <= max(0.0, first) + close:
-        text = "the deceleration in the row of the impact, at depth zero, is larger than that of "
-        yield (
-            "deceleration",
-            0.0,
-            f"{text}the first step"
-            if value * first > 0
-            else ("the deceleration in the row of the impact, at depth zero, has the wrong sign"),
-        )
+        is_large = value * first > 0
+        problem = "is larger than that of the first step" if is_large else "has the wrong sign"
+        text = f"the deceleration in the row of the impact, at depth zero, {problem}"
+        yield "deceleration", 0.0, text

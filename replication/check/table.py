@@ -18,6 +18,7 @@ from typing import NamedTuple
 from replication.check.difference import span
 from replication.check.labels import is_sure
 from replication.check.words import column_roles, digits_of, is_unit, power_of_ten, unit_in
+from spreadsheets.engines import in_quotes
 from spreadsheets.evaluate import Evaluator, Shape, column_letters
 from spreadsheets.foreign import Position
 
@@ -48,8 +49,7 @@ def cell_name(place: Position, with_sheet: bool = False) -> str:
     sheet, row, column = place
     cell = f"{column_letters(column)}{row}"
     plain = re.fullmatch(r"[A-Za-z_]\w*", sheet)
-    quoted = sheet if plain else "'" + sheet.replace("'", "''") + "'"
-    return f"{quoted}!{cell}" if with_sheet else cell
+    return f"{sheet if plain else in_quotes(sheet)}!{cell}" if with_sheet else cell
 
 
 def runs(labels: Mapping[Position, object], across: bool = False) -> Iterator[list[Position]]:

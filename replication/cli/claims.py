@@ -116,22 +116,21 @@ def _record(claim: "Claim", verdict: "Verdict | None") -> dict[str, Any]:
 
 def _prove(name: str, options: argparse.Namespace, ledger: "Ledger") -> int:
     """Print what the verdict on a claim or an equation rests on."""
-    from replication import report
     from replication.audit.audit import Audit
-    from replication.audit.findings import findings_on
-    from replication.report import document
 
-    audit = Audit(ledger)
-    settings = (audit.judge, width(), may_emphasize())
-    if name in ledger.claims:
-        claim = audit.claim(name)
-        if options.json:
-            return put(options, document.claim_document(claim), str)
-        text = report.proof(claim, findings_on(audit, name), *settings)
+    audit, is_claim = Audit(ledger), name in ledger.claims
+    if options.json:
+        from replication.report.document import claim_document, equation_document
+
+        if is_claim:
+            return put(options, claim_document(audit.claim(name)), str)
+        return put(options, equation_document(audit.equation(name)), str)
+    from replication.audit.findings import findings_on
+    from replication.report import equation_proof, proof
+
+    on_it, settings = findings_on(audit, name), (audit.judge, width(), may_emphasize())
+    if is_claim:
+        print(proof(audit.claim(name), on_it, *settings))
     else:
-        equation = audit.equation(name)
-        if options.json:
-            return put(options, document.equation_document(equation), str)
-        text = report.equation_proof(equation, findings_on(audit, name), *settings)
-    print(text)
+        print(equation_proof(audit.equation(name), on_it, *settings))
     return 0

@@ -120,6 +120,10 @@ def run(options: argparse.Namespace) -> int:
     return put(options, record, lambda: _fit_text(fitted, inputs, rows), rows, warnings, notes)
 
 
+_STATED = ("velocity", "radius", "particle_density", "target_density")
+"""The inputs of a measurement: all but the resistance."""
+
+
 def _refuse_twice(given: Mapping[str, str], known: Mapping[str, Column]) -> None:
     """Raise ValueError if an option gives an input of which the file has a column."""
     for name in given:
@@ -142,12 +146,11 @@ def _unit_asked(column: Column, measurements: Sequence[Measurement], *, per_radi
         resistance = own_resistance(replace(m, depth=depth))
         return resistance is not None and not doubt("resistance", resistance, "")
 
-    inputs = ("velocity", "radius", "particle_density", "target_density")
     odd = [
         row
         for row, m in enumerate(measurements)
         if not is_expected(m, m.depth / m.radius if per_radius else m.depth)
-        and not any(doubt(name, getattr(m, name), "") for name in inputs)
+        and not any(doubt(name, getattr(m, name), "") for name in _STATED)
     ]
     for row in odd:
         m = measurements[row]
@@ -181,8 +184,7 @@ def _fit_figure(
 def _common_inputs(measurements: Sequence[Measurement]) -> dict[str, float]:
     """Return the inputs beside the velocity that all measurements have in common."""
     values = {
-        name: {getattr(m, name) for m in measurements}
-        for name in ("radius", "particle_density", "target_density")
+        name: {getattr(m, name) for m in measurements} for name in _STATED if name != "velocity"
     }
     return {name: values[name].pop() for name in values if len(values[name]) == 1}
 
@@ -190,7 +192,7 @@ def _common_inputs(measurements: Sequence[Measurement]) -> dict[str, float]:
 def _doubts(fitted: Fit, measurements: Sequence[Measurement], file: Path) -> list[str]:
     """Return a warning for the first value of each input that no impact has, and of the result."""
     warnings = []
-    for name in ("velocity", "radius", "particle_density", "target_density"):
+    for name in _STATED:
         words = name.replace("_", " ")
         for m in measurements:
             if text := doubt(name, getattr(m, name), f"{file}, line {m.line}: {words}"):

@@ -2,14 +2,19 @@
 
 import argparse
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, times, whole
 from replication.cli.output import paragraph, put
-from replication.cli.picture import add_plot, checked, notes_on, write_picture
+from replication.cli.picture import (
+    add_plot,
+    checked,
+    notes_on,
+    points_of_motion,
+    write_picture,
+)
 from replication.models.impact import Impact
 from replication.text import number, numbers
 
@@ -48,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.models.motion import history, stop_time
 
     case, warnings = case_of(options)
-    points = checked(options, lambda file: _own_points(file, case), options.case_file)
+    points = checked(options, lambda file: points_of_motion(file, case), options.case_file)
     stop = stop_time(**case.motion)
     if options.times is None:
         asked = [stop * (k / (options.points - 1)) for k in range(options.points)]
@@ -72,12 +77,6 @@ def run(options: argparse.Namespace) -> int:
     record |= {"warnings": warnings, "notes": notes}
     rows = [dict(zip(lists, row, strict=True)) for row in table] if options.csv else []
     return put(options, record, text, rows, warnings, notes)
-
-
-def _own_points(file: Path, case: Impact) -> "Points":
-    from replication.plots import DEPTH, SPEED, TIME, reach_of, read_points
-
-    return read_points(file, TIME, (DEPTH, SPEED), reach_of(case))
 
 
 def _history_figure(

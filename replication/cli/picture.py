@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from replication.cli.options import path
+from replication.models.impact import Impact
 from replication.user_input import place
 
 if TYPE_CHECKING:
@@ -44,6 +45,16 @@ def checked(
     with place("--plot"):
         check_plot(options.plot, data, *inputs)
     return None if data is None else read(data)
+
+
+def points_of_motion(file: Path, case: Impact) -> "Points":
+    """Read one's own depths or velocities against time, which are drawn over the motion of a case.
+
+    Raises as `checked` does.
+    """
+    from replication.plots import DEPTH, SPEED, TIME, reach_of, read_points
+
+    return read_points(file, TIME, (DEPTH, SPEED), reach_of(case))
 
 
 def notes_on(points: "Points | None") -> list[str]:

@@ -1,15 +1,19 @@
 """`coldspray sheet`: print the rows of the Excel sheet for a case."""
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from replication.cases import inputs_of
 from replication.cli.case import add_inputs, case_of, doubted, in_words
 from replication.cli.options import add_csv_and_json, add_quiet, add_scheme
 from replication.cli.output import paragraph, put
-from replication.cli.picture import add_plot, checked, notes_on, write_picture
-from replication.models.impact import Impact
+from replication.cli.picture import (
+    add_plot,
+    checked,
+    notes_on,
+    points_of_motion,
+    write_picture,
+)
 from replication.models.sheet import Sheet
 from replication.text import number, numbers
 
@@ -36,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
     from replication.models import sheet
 
     case, warnings = case_of(options)
-    points = checked(options, lambda file: _own_points(file, case), options.case_file)
+    points = checked(options, lambda file: points_of_motion(file, case), options.case_file)
     with doubted(warnings):
         result = sheet.run(case, options.scheme)
     write_picture(options, lambda: _sheet_figure(result, points))
@@ -68,12 +72,6 @@ def _sheet_text(sheet: Sheet) -> str:
     )
     case = paragraph(in_words(sheet.impact, step=True, stop=True))
     return "\n".join([case, "", *numbers(heads, table), "", results])
-
-
-def _own_points(file: Path, case: Impact) -> "Points":
-    from replication.plots import DEPTH, SPEED, TIME, reach_of, read_points
-
-    return read_points(file, TIME, (DEPTH, SPEED), reach_of(case))
 
 
 def _sheet_figure(sheet: Sheet, points: "Points | None") -> "Figure":
